@@ -288,9 +288,14 @@ def _skills(draw: st.DrawFn, name: str, width: int, targets: list[tuple[str, int
             outputs += 1
         gate = draw(_gates(inputs)) if draw(st.integers(0, 3)) == 0 else None
         cuts = draw(st.sampled_from([0.0, 0.05, 0.5])) if to == "skill" else 0.0
-        edges.append(replace(edge, gate=gate, cuts=cuts))
+        sinks = [target for target in targets if target[0] != "skill"]
+        over = (
+            draw(st.sets(st.sampled_from(sinks), max_size=2)) if to == "skill" and draw(st.integers(0, 4)) == 0 else ()
+        )
+        edges.append(replace(edge, gate=gate, cuts=cuts, over=tuple(sorted(over))))
     called = Procedure(f"own.send{outputs}") if function is CALLED else function
-    return Skill(name, called, inputs, tuple(edges), frozen=draw(st.booleans()))
+    chooses = any(edge.to == "skill" for edge in edges) and draw(st.integers(0, 3)) == 0
+    return Skill(name, called, inputs, tuple(edges), frozen=draw(st.booleans()), chooses=chooses)
 
 
 @st.composite

@@ -128,7 +128,9 @@ class Plain:
         self.influence = [f(s.name == self.master) if s.name in reached else f(np.nan) for s in self.graph.skills]
         self.com = {"actuator": [f(0)] * len(self.graph.actuators), "memory": [f(0)] * len(self.graph.memories)}
         self.total = {noun: list(zeros) for noun, zeros in self.com.items()}
-        for skill, own in zip(self.graph.skills, self.influence, strict=True):
+        heard = {(to, i): list(self.influence) for to, sinks in self.com.items() for i in range(len(sinks))}
+        for place, skill in enumerate(self.graph.skills):
+            own = self.influence[place]
             if own == 0 or skill.name not in reached:
                 continue
             inputs = [self.readings[i] for i in skill.inputs]
@@ -136,8 +138,11 @@ class Plain:
                 self.faults += len(skill.edges)
                 continue
             outputs = self.outputs(skill, inputs)
-            for edge in skill.edges:
-                value = self.value(edge, outputs)
+            values = [self.value(edge, outputs) for edge in skill.edges]
+            choice = self.choice(skill, values)
+            for number, (edge, value) in enumerate(zip(skill.edges, values, strict=True)):
+                if value is not None and math.isfinite(value) and skill.chooses and edge.to == "skill":
+                    value = f(number == choice)
                 if value is None:
                     continue
                 if not math.isfinite(value):
@@ -145,9 +150,24 @@ class Plain:
                 elif edge.to == "skill":
                     if not clamp(value) * own < f(edge.cuts):
                         self.influence[edge.target] += clamp(value) * own
+                    for sink, influence in heard.items():
+                        sent = clamp(value) * influence[place]
+                        if (not edge.over or sink in edge.over) and not sent < f(edge.cuts):
+                            influence[edge.target] += sent
                 else:
-                    self.com[edge.to][edge.target] += clamp(value) * own
-                    self.total[edge.to][edge.target] += own
+                    own_there = heard[edge.to, edge.target][place]
+                    self.com[edge.to][edge.target] += clamp(value) * own_there
+                    self.total[edge.to][edge.target] += own_there
+
+    @staticmethod
+    def choice(skill, values):
+        """The first of the greatest influences, by its number."""
+        there = [
+            (value, -number)
+            for number, (edge, value) in enumerate(zip(skill.edges, values, strict=True))
+            if edge.to == "skill" and value is not None and math.isfinite(value)
+        ]
+        return -max(there)[1] if there else None
 
     def value(self, edge, outputs):
         """What an edge sends; None where its gate is closed."""

@@ -99,6 +99,7 @@ def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS
     """
     carried, order = flows.flow_at(rows), _above(flows, target)
     _refuse_replaced(flows, carried, [*order, *([target[1]] if target[0] == "skill" else [])])
+    carried = flows.counted_for(target, carried)
     if target == ("skill", flows.skills[0]):
         return _master_shares(flows, len(rows))
     ends = _ends(flows, target, carried)

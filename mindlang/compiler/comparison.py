@@ -148,7 +148,8 @@ def _parts(header: syntax.Header, of: Any) -> tuple[Any, dict[str, Sequence[Any]
             reads = syntax.of_form(of.declaration.facts, syntax.Reads)
             return like, {"reads": [(fact.name.text, fact.stands_for and fact.stands_for.text) for fact in reads]}
         case Skill():
-            return of.function, {"reads": of.reads, "drives influences": of.edges, "stays": [True] * of.frozen}
+            how = {"chooses": [True] * of.chooses, "stays": [True] * of.frozen}
+            return of.function, {"reads": of.reads, "drives influences": of.edges, **how}
         case Task():
             starts = [of.start] * bool(syntax.of_form(of.facts, syntax.Starts))
             judged = {"lasts": [of.ticks], "ends succeeds": of.ends, "rewards": of.rewards, "counts": of.counts}

@@ -10,6 +10,8 @@ from mindlang.compiler.syntax import Drives, Influences
 if TYPE_CHECKING:
     from rich.tree import Tree
 
+CHOOSES = " chooses one"  # behind a skill that does
+
 
 def tree(mind: Mind) -> "Tree":
     """The hierarchy below the master; a skill with several parents is shown in full once, then only named.
@@ -32,7 +34,7 @@ def tree(mind: Mind) -> "Tree":
             continue
         shown.add(name)
         skill = skills[name]
-        what = f"like {skill.like}" if skill.like else phrase(skill.function)
+        what = (f"like {skill.like}" if skill.like else phrase(skill.function)) + CHOOSES * skill.chooses
         branch = above.add(Text.assemble((name, "bold"), said, (f"  {what}", "cyan")))
         if comment := skill.declaration.comment:
             branch.add(Text(comment, "italic"))
@@ -60,7 +62,8 @@ def dot(mind: Mind) -> str:
     lines += [f"  {_id('input', part.name)} [label={_quoted(part.name)} shape=cylinder]" for part in mind.memories]
     for skill in mind.skills:
         bold = " style=bold" if skill.name == mind.master else ""
-        lines.append(f"  {_id('skill', skill.name)} [label={_quoted(skill.name)} shape=box{bold}]")
+        label = _quoted(skill.name + CHOOSES * skill.chooses)
+        lines.append(f"  {_id('skill', skill.name)} [label={label} shape=box{bold}]")
         if skill.like:
             owner = _id("skill", skill.like)
             lines.append(f"  {owner} -> {_id('skill', skill.name)} [style=dashed label=like constraint=false dir=none]")
@@ -68,7 +71,7 @@ def dot(mind: Mind) -> str:
         here = _id("skill", skill.name)
         lines += [f"  {_id('input', name)} -> {here} [style=dotted]" for name in skill.reads]
         for edge in skill.edges:
-            said = text_after_name(edge.fact).removeprefix(" at ")
+            said = text_after_name(edge.fact).removeprefix(" at ").strip()
             label = f" [label={_quoted(said)}]" if said else ""
             lines.append(f"  {here} -> {_id('input' if edge.to == 'memory' else edge.to, edge.target)}{label}")
     return "\n".join([*lines, "}"])

@@ -10,6 +10,7 @@ from mindrun.graph import graph
 from mindlang.compiler import model
 from mindlang.compiler.format import spaced
 from mindlang.compiler.hierarchy import topological_order
+from mindlang.compiler.references import DRIVABLE_NOUNS
 from mindlang.compiler.syntax import Comparison, Expression, When, of_form
 
 T = TypeVar("T")
@@ -64,7 +65,7 @@ def _skills(mind: model.Mind, readings: Mapping[str, tuple[int, int]]) -> Iterat
     for skill in map(skills.__getitem__, order):
         places = [start + i for start, width in (readings[name] for name in skill.reads) for i in range(width)]
         edges = tuple(_edges(skill, numbers, Places(readings)))
-        yield graph.Skill(skill.name, skill.function, tuple(places), edges, skill.frozen, skill.like)
+        yield graph.Skill(skill.name, skill.function, tuple(places), edges, skill.frozen, skill.like, skill.chooses)
 
 
 def _edges(skill: model.Skill, numbers: Mapping[str, Mapping[str, int]], places: Places) -> Iterator[graph.Edge]:
@@ -75,7 +76,10 @@ def _edges(skill: model.Skill, numbers: Mapping[str, Mapping[str, int]], places:
             otherwise = _program(edge.gate.otherwise, places) if edge.gate.otherwise else None
             gate = graph.Gate(lower_condition(edge.gate.when, places), otherwise)
         output, value = (None, _program(edge.at, places)) if edge.at else (next(outputs), ())
-        yield graph.Edge(edge.to, numbers[edge.to][edge.target], output, value, gate, edge.cuts)
+        over: list[graph.Sink] = [
+            (noun, numbers[noun][name]) for name in edge.over for noun in DRIVABLE_NOUNS if name in numbers[noun]
+        ]
+        yield graph.Edge(edge.to, numbers[edge.to][edge.target], output, value, gate, edge.cuts, tuple(sorted(over)))
 
 
 def _task(task: model.Task, places: Places) -> graph.Task:

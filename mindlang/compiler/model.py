@@ -50,7 +50,10 @@ class Thing(Part[ThingKind], frozen=True):
 
 
 class Edge(Struct, frozen=True):
-    """An edge of a skill: it sends an output of its function, or the value of `at`; an influence below `cuts` is 0."""
+    """An edge of a skill: it sends an output of its function, or the value of `at`; an influence below `cuts` is 0.
+
+    One that is `over` some actuators and memories, by name, counts for these alone.
+    """
 
     to: Receiver
     target: str
@@ -58,6 +61,7 @@ class Edge(Struct, frozen=True):
     fact: syntax.Drives | syntax.Influences
     gate: syntax.Gate | None = None
     cuts: float = 0.0
+    over: tuple[str, ...] = ()
 
     @property
     def values(self) -> tuple[syntax.Expression, ...]:
@@ -67,7 +71,7 @@ class Edge(Struct, frozen=True):
 
 
 class Skill(Struct, frozen=True):
-    """A skill; `reads` are names of sensors and memories; one that is `frozen` is not taught.
+    """A skill; `reads` are names of sensors and memories; one that is `frozen` is not taught, one may `chooses` one.
 
     One that is `like` another has that one's function and weights; what it reads stands in that one's order, and its
     edges are said there.
@@ -80,6 +84,7 @@ class Skill(Struct, frozen=True):
     frozen: bool
     declaration: syntax.Declaration
     like: str = ""
+    chooses: bool = False
 
     @property
     def span(self) -> Span:
@@ -205,14 +210,16 @@ def source_graph(sensors: Iterable[Part[Any] | Sensor]) -> DiGraph:
 def hierarchy_graph(mind: Mind) -> DiGraph:
     """All parts of a mind, and what flows between them from the sensors to the actuators.
 
-    A node has its `kind`, a skill also `like`, `frozen` and whether it is the `master`; an edge has its `relation`
-    (reads, influences, drives, computes) and the `file` and `line` that say it. Skills alone are a DAG; a memory that
-    is read and driven closes a circle, over one tick.
+    A node has its `kind`, a skill also `like`, `frozen` and whether it is the `master`, and one that does `chooses`
+    "one"; an edge has its `relation` (reads, influences, drives, computes), the `file` and `line` that say it, and the
+    names that it is `over`, if any. Skills alone are a DAG; a memory that is read and driven closes a circle, over one
+    tick.
     """
     graph, read = DiGraph(), dict[str, Node]()
 
-    def connect(start: Node, end: Node, relation: str, span: Span) -> None:
-        graph.add_edge(start, end, relation=relation, file=span.source.name, line=span.line)
+    def connect(start: Node, end: Node, relation: str, span: Span, over: tuple[str, ...] = ()) -> None:
+        more = {"over": list(over)} if over else {}
+        graph.add_edge(start, end, relation=relation, file=span.source.name, line=span.line, **more)
 
     for noun, parts in (("sensor", mind.sensors), ("memory", mind.memories), ("actuator", mind.actuators)):
         for part in parts:
@@ -221,6 +228,7 @@ def hierarchy_graph(mind: Mind) -> DiGraph:
                 read[part.name] = Node(noun, part.name)
     for skill in mind.skills:
         about = {"kind": kind_names()[type(skill.function)], "like": skill.like, "frozen": skill.frozen}
+        about |= {"chooses": "one"} if skill.chooses else {}
         graph.add_node(Node("skill", skill.name), **about, master=skill.name == mind.master)
     for sensor in mind.sensors:
         for source in dict.fromkeys(sensor.kind.sources):
@@ -234,5 +242,5 @@ def hierarchy_graph(mind: Mind) -> DiGraph:
             connect(read[name], here, "reads", lines[name])
         for edge in skill.edges:
             relation = "influences" if edge.to == "skill" else "drives"
-            connect(here, Node(edge.to, edge.target), relation, edge.fact.span)
+            connect(here, Node(edge.to, edge.target), relation, edge.fact.span, edge.over)
     return graph

@@ -4,7 +4,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from mindrun.graph.graph import VARIED_NOUNS
+from mindrun.graph.graph import VARIED_NOUNS, Receiver
 from mindrun.kinds.registry import arguments, find_kind, kinds
 from mindrun.numbers.quantity import Quantity
 from mindrun.numbers.quantity import Reference as Noun
@@ -15,7 +15,7 @@ from mindlang.compiler.syntax import Declaration, Fact, File, Header, Name, Phra
 
 READABLE_NOUNS = ("sensor", "memory")
 VALUE_NOUNS = (*READABLE_NOUNS, "number", "actuator", "draw")  # an actuator is its command, in a task
-DRIVABLE_NOUNS = ("actuator", "memory")
+DRIVABLE_NOUNS: tuple[Receiver, ...] = ("actuator", "memory")
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,6 +93,8 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
             yield from _if_any(stands_for, *READABLE_NOUNS)
         case syntax.Sends(name):
             yield name, DRIVABLE_NOUNS if isinstance(line, syntax.Drives) else ("skill",)
+            over = line.over or () if isinstance(line, syntax.Influences) else ()
+            yield from ((each, DRIVABLE_NOUNS) for each in over)
             yield from _in_expressions(*syntax.expressions_in(line))
         case syntax.Contains(name, phrase):
             yield name, ("thing",)

@@ -13,8 +13,8 @@ PARTS = ("sensor", "actuator", "memory")
 WHOLES = ("body", "skill", "curriculum", "scene")
 NOUNS = (*PARTS, *WHOLES, "task")
 VERBS = (
-    "reads", "drives", "influences", "stays", "contains", "starts", "draws", "varies", "fails", "lasts", "ends",
-    "succeeds", "rewards", "counts", "teaches",
+    "reads", "drives", "influences", "chooses", "stays", "contains", "starts", "draws", "varies", "fails", "lasts",
+    "ends", "succeeds", "rewards", "counts", "teaches",
 )  # fmt: skip
 SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
 
@@ -190,9 +190,17 @@ class Drives(Sends, frozen=True):
 
 
 class Influences(Sends, frozen=True):
-    """`influences NAME [at EXPRESSION] [when CONDITION …] [cuts below AMOUNT]`"""
+    """`influences NAME [over NAME [and NAME …]] [at EXPRESSION] [when CONDITION …] [cuts below AMOUNT]`"""
 
     cuts: Amount | None = None
+    over: tuple[Name, ...] | None = None
+
+
+class Chooses(Struct, frozen=True):
+    """`chooses one`"""
+
+    how: Name
+    span: Span
 
 
 class Stays(Struct, frozen=True):
@@ -316,8 +324,8 @@ class Teaches(Struct, frozen=True):
 
 
 Fact = (
-    Reads | Drives | Influences | Stays | Contains | Starts | Draws | Varies | Fails | Lasts | Ends | Succeeds | Rewards
-    | Counts | Teaches
+    Reads | Drives | Influences | Chooses | Stays | Contains | Starts | Draws | Varies | Fails | Lasts | Ends | Succeeds
+    | Rewards | Counts | Teaches
 )  # fmt: skip
 
 

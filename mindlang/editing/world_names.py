@@ -39,6 +39,7 @@ from mindlang.compiler.splice import spliced
 from mindlang.compiler.syntax import Fact
 from mindlang.editing.insertion import replace_span
 from mindlang.lock.training_world import TrainingWorld
+from mindlang.lock.world_changes import NOUNS
 from mindlang.lock.world_facts import Worlds, meaning_of
 
 T = TypeVar("T")
@@ -59,7 +60,6 @@ NAMED: Mapping[type, Mapping[str, str]] = {
 }  # the nouns of the fields that are names
 
 OF_KINDS = "sensor", "memory", "actuator", "thing"  # the nouns of facts that are kinds
-REGISTERED = {"thing": "content"}  # nouns that the registry has under another name
 
 Role = tuple[str | int, ...]  # where a text stands: the noun of its fact, and the keys and numbers that lead to it
 _MARK = re.compile("\0([0-9]+)\0")  # no name has such a character
@@ -100,7 +100,7 @@ class Renaming:
             noun, space, own = subject.partition(" ")
             now[f"{noun}{space}{self.name(own, noun)}"] = (
                 {
-                    key: _argument(part, meaning_of(REGISTERED.get(noun, noun), value["is"], key), self.name)
+                    key: _argument(part, meaning_of(NOUNS.get(noun, noun), value["is"], key), self.name)
                     for key, part in value.items()
                 }
                 if noun in OF_KINDS
@@ -162,7 +162,7 @@ class Renaming:
     def _read_again(self, role: Role, text: str) -> str:
         """A text that no mind says now, read as the fact that it was once, with other names."""
         if role not in _AROUND_SENTENCE:
-            return self.name(text, "skill", "actuator", "memory") if role[0] == "skill" and role[-1] != "is" else text
+            return self.name(text, "skill", "actuator", "memory") if _is_name(role) else text
         before, after = _AROUND_SENTENCE[role](text)
         source = Source("a fact", f"{before}{text}{after}")
         try:
@@ -172,6 +172,11 @@ class Renaming:
         mentions = mentions_in(fact, self._declared, None)
         splices = (replace_span(each.name.span, self.name(each.name.text, each.noun)) for each in mentions)
         return spliced(source, splices).removeprefix(before).removesuffix(after)
+
+
+def _is_name(role: Role) -> bool:
+    """True if a text of a lock that stands there is the name of a part of the mind."""
+    return role[0] == "skill" and role[-1] not in ("is", "chooses")
 
 
 def _mapped(value: Any, role: Role, text: Callable[[Role, str], str]) -> Any:

@@ -3,7 +3,7 @@
 from typing import Any
 
 from mindrun.kinds.registry import Argument
-from mindrun.numbers.quantity import UNSAID, Quantity, Reference, Span
+from mindrun.numbers.quantity import FARTHEST_UNITS, UNSAID, Quantity, Reference, Span
 from mindrun.robot.driver_support import ADDRESS
 
 from mindlang.compiler.diagnostic import a, listed
@@ -73,6 +73,8 @@ def _default(asked: Asked) -> str:
             return str(flag).lower()
         case None | () | "":
             return "none"
+        case float(number) if number == FARTHEST_UNITS:
+            return "however far"
         case Span() as span if span == UNSAID:
             return "as the scene says"
         case Span(first, last, by):

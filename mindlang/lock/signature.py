@@ -119,6 +119,9 @@ def _as_taught(graph: Graph, skill: Skill, lock: Lock) -> Skill:
     inputs = tuple(index for read in taught.reads for index in places[read.partition(":")[0]])
     learned = {graph.named(edge.to, edge.target): edge for edge in skill.edges if edge.output is not None}
     edges = [replace(learned[name], output=number) for number, name in enumerate(taught.sends)]
+    if skill.chooses:  # of equals the first in the text: a line with at keeps its place
+        rest = iter(edges)
+        return replace(skill, inputs=inputs, edges=tuple(e if e.output is None else next(rest) for e in skill.edges))
     return replace(skill, inputs=inputs, edges=(*edges, *(edge for edge in skill.edges if edge.output is None)))
 
 

@@ -55,7 +55,10 @@ def _tick(seconds: float) -> str:
 
 
 def _kind_changes(noun: str, name: str, old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
-    """The differences of a part, in sentences. An argument that only one version of mindc knows is none."""
+    """The differences of a part, in sentences. An argument that only one version of mindc knows is none.
+
+    One that is left out where it is the default is that.
+    """
     if old["is"] != now["is"]:
         yield f"taught with {name} as {old['is']}, now {now['is']}"
         return

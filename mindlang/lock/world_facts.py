@@ -21,7 +21,7 @@ from mindrun.kinds.environment import module_beside
 from mindrun.kinds.functions.procedure import module_source
 from mindrun.kinds.registry import arguments, came_later, kinds, names
 from mindrun.numbers.expression import TRUTHS, fold, leaves
-from mindrun.numbers.quantity import EXPRESSION, UNSAID, Quantity, Reference
+from mindrun.numbers.quantity import EXPRESSION, FARTHEST_UNITS, UNSAID, Quantity, Reference
 
 from mindlang.compiler.drawing import phrase
 from mindlang.compiler.hierarchy import with_descendants
@@ -31,7 +31,13 @@ from mindlang.lock.training_world import LessonKey, TrainingWorld
 PRECEDENCE = {"or": -2, "and": -1, **dict.fromkeys(TRUTHS[:4], 0), "+": 1, "-": 1, "*": 2, "/": 2}
 NEGATION_PRECEDENCE, EXTREME_PRECEDENCE, ATOM_PRECEDENCE = 3, 4, 5
 
-UNSAID_VALUES: tuple[Any, ...] = ([], "", None, {"by": None, "first": UNSAID.first, "last": UNSAID.last})
+UNSAID_VALUES: tuple[Any, ...] = (
+    [],
+    "",
+    None,
+    FARTHEST_UNITS,
+    {"by": None, "first": UNSAID.first, "last": UNSAID.last},
+)
 
 Leaf = Callable[[str, float], str]
 ExpressionPart = tuple[str, int]  # of an expression: its text, and how tightly it binds
@@ -123,22 +129,23 @@ class Worlds:
 
     def _skill(self, skill: Skill) -> dict[str, Any]:
         """The facts of a skill that its weights do not say: all of it where it does not learn."""
-        fixed = [edge for edge in skill.edges if edge.programs or edge.cuts]
-        sends = [self._sends(edge) for edge in fixed]
+        fixed = [edge for edge in skill.edges if edge.programs or edge.cuts or edge.over]
+        sends = {"sends": sorted(map(self._sends, fixed)), **({"chooses": "one"} if skill.chooses else {})}
         if skill.like:
-            return {"like": skill.like, "reads": self._read_instead(skill), "sends": sorted(sends)}
+            return {"like": skill.like, "reads": self._read_instead(skill), **sends}
         if genes(skill):
-            return {"sends": sorted(sends)}
+            return sends
         reads = list(dict.fromkeys(self._names[index] for index in skill.inputs))
         if skill.function.calls is None:
-            return {"is": names()[type(skill.function)], "reads": sorted(reads), "sends": sorted(sends)}
+            return {"is": names()[type(skill.function)], "reads": sorted(reads), **sends}
         answers = [self.graph.named(edge.to, edge.target) for edge in skill.edges if edge.output is not None]
         function = {"is": f"procedure from {skill.function.calls}", "text": self._text(skill.function.calls)}
-        return {**function, "reads": reads, "answers": answers, "sends": sorted(sends)}
+        return {**function, "reads": reads, "answers": answers, **sends}
 
     def _sends(self, edge: Edge) -> str:
         """The target, value, gate and cut of an edge, as they are written."""
         words = [self.graph.named(edge.to, edge.target)]
+        words += [f"over {' and '.join(self.graph.named(*sink) for sink in edge.over)}"] * bool(edge.over)
         words += [f"at {infix(edge.value, self._leaf)}"] if edge.output is None else []
         if edge.gate:
             words.append(f"when {infix(edge.gate.when, self._leaf)}")

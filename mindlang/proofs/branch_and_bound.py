@@ -65,7 +65,7 @@ def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[EdgeRange,
     bounds = [found.low.min(axis=0), found.high.max(axis=0), found.sure.all(axis=0)]
     known = is_known(skill, weights)
     seen = [
-        (least, most_) if least <= most_ and (known or edge.output is None) else None
+        (least, most_) if least <= most_ and (known or not _is_hidden(skill, edge)) else None
         for edge, least, most_ in zip(skill.edges, low.tolist(), high.tolist(), strict=True)
     ]
     return tuple(EdgeRange(*each) for each in zip(*(bound.tolist() for bound in bounds), seen, strict=True))
@@ -93,8 +93,13 @@ def _seen(skill: Skill, weights: Weights | None) -> tuple[Singles, Singles]:
     sound = np.isfinite(found)
     found = np.clip(found, 0, 1)
     low, high = found.min(axis=0, initial=1, where=sound), found.max(axis=0, initial=0, where=sound)
-    hidden = [not known and edge.output is not None for edge in skill.edges]
-    return low, np.where(hidden, np.float32(1), high)
+    hidden = [not known and _is_hidden(skill, edge) for edge in skill.edges]
+    return np.where(hidden, np.float32(0), low), np.where(hidden, np.float32(1), high)
+
+
+def _is_hidden(skill: Skill, edge: Edge) -> bool:
+    """True if what an edge sends depends on the skill's function: it is an output, or chosen beside outputs."""
+    return edge.output is not None or (skill.chooses and edge.to == "skill")
 
 
 def _cut(skill: Skill, weights: Weights | None, low: Singles, high: Singles, most: int) -> list[Pool]:

@@ -80,7 +80,22 @@ def sent_bounds(skill: Skill, weights: Weights | None, boxes: Boxes) -> SentBoun
                 low[:, number], high[:, number], sure[:, number] = _gated(
                     edge.gate, low[:, number], high[:, number], boxes
                 )
-    return SentBounds(np.clip(low, 0, 1), np.clip(high, 0, 1), sure & np.isfinite(low) & np.isfinite(high))
+    sure &= np.isfinite(low) & np.isfinite(high)
+    if skill.chooses:
+        _choose([number for number, edge in enumerate(skill.edges) if edge.to == "skill"], low, high, sure)
+    return SentBounds(np.clip(low, 0, 1), np.clip(high, 0, 1), sure)
+
+
+def _choose(influences: Sequence[int], low: Singles, high: Singles, sure: NDArray[np.bool_]) -> None:
+    """Bounds of what is sent in place of those of values before the clamp: 1 over the greatest, of equals the first."""
+    always, never = np.ones((2, *low.shape), np.bool_)
+    for one in influences:
+        never[:, one] = False
+        for other in (each for each in influences if each != one):
+            loses, wins = (np.less, np.greater_equal) if other < one else (np.less_equal, np.greater)
+            always[:, one] &= loses(high[:, other], low[:, one])
+            never[:, one] |= sure[:, other] & wins(low[:, other], high[:, one])
+    low[:, influences], high[:, influences] = always[:, influences], ~never[:, influences]
 
 
 def _gated(gate: Gate, low: Singles, high: Singles, boxes: Boxes) -> tuple[Singles, Singles, NDArray[np.bool_]]:

@@ -71,11 +71,13 @@ def influence_edges(graph: Graph) -> InfluenceEdges:
     onward = [[_influence_edge(skill, e, everything) for e in skill.edges if e.to == "skill"] for skill in graph.skills]
     drives = [tuple(edge.target for edge in skill.edges if edge.to == "actuator") for skill in graph.skills]
     below = tuple(place[skill.name] for skill in reachable(graph, graph.master))
-    able = tuple(tuple(edge for edge in edges if edge.most > 0) for edges in onward)
+    able = tuple(tuple(edge for edge in edges if edge.most > 0 and edge.cuts < np.inf) for edges in onward)
     return InfluenceEdges(tuple(place), below, able, tuple(drives))
 
 
 def _influence_edge(skill: Skill, edge: Edge, everything: Boxes) -> InfluenceEdge:
+    if skill.chooses:  # 1 or 0, and nothing between that leaks
+        return InfluenceEdge(edge.target, 1.0, False, edge.cuts)
     if edge.output is not None:
         learns = skill.function.learns  # Python code is as exact as it is written
         return InfluenceEdge(edge.target, 1.0, learns, edge.cuts)

@@ -2,9 +2,11 @@
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from math import inf
 from typing import Any, Literal
 
 from mindrun.graph.graph import Actuator, Edge, Graph, Skill
+from mindrun.graph.scopes import influence_scopes, within_scope
 from mindrun.graph.weights import Weights, reachable
 from networkx import DiGraph
 
@@ -93,13 +95,15 @@ class _Rests:
             self._live.add_node(("skill", self._place[skill.name]))
             for edge, sends in zip(skill.edges, bounds.edges[skill.name], strict=True):
                 ends = ("skill", self._place[skill.name]), (edge.to, edge.target)
-                self._flow.add_edge(*ends, sends=(skill, edge, sends))
-                if not sends.is_dead:
+                if edge.cuts < inf:
+                    self._flow.add_edge(*ends, sends=(skill, edge, sends))
+                if edge.cuts < inf and not sends.is_dead:
                     self._live.add_edge(*ends)
 
     def narrows(self, skill: Skill, edge: Edge, sends: EdgeRange) -> bool:
         """True if an edge is learnt, and its weights narrow what it sends, or ensure that a command is a number."""
-        narrows = sends.low > 0 or sends.high < 1 or (edge.to == "actuator" and sends.sure)
+        is_number = sends.sure and (edge.to == "actuator" or skill.chooses)
+        narrows = sends.low > 0 or sends.high < 1 or is_number
         return edge.output is not None and skill.owner in self._weights and narrows
 
     def of_actuator(self, actuator: int, is_joint: bool) -> tuple[str, ...]:
@@ -123,13 +127,14 @@ class _Rests:
 
 
 def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
-    """All claims about a mind under its master; `delta` is the influence of a leak."""
-    count = len(graph.actuators)
-    found, alone = influence_edges(graph), prove_reach(graph, weights)
-    tried = try_readings(graph, weights)
-    bounds = tighten(graph, weights, alone, [seen.readings is not None for seen in tried])
-    listed, leaking = paths(found, count, MAX_LISTED_PATHS), leaks(found, count, delta)
-    rests = _Rests(graph, weights, bounds)
+    """All claims about a mind under its master; `delta` is the influence of a leak.
+
+    Of an actuator they are those of the hierarchy without the influence that is over others.
+    """
+    scopes = influence_scopes(graph)
+    numbers = [scopes.of["actuator", place] for place in range(len(graph.actuators))]
+    found = {n: _bounded(within_scope(graph, scopes, n), weights, delta) for n in {0, *numbers}}
+    bounds, rests, _ = found[0]
     below = reachable(graph, graph.master)
     names = {skill.name for skill in below}
     return Proof(
@@ -141,20 +146,34 @@ def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
             if not is_known(skill, weights.get(skill.owner))
         },
         tuple(skill.name for skill in graph.skills if skill.name not in names),
-        tuple(
-            ActuatorClaims(
-                actuator,
-                listed[i],
-                leaking[i],
-                bounds.actuators[i],
-                tried[i],
-                rests.of_actuator(i, is_joint=bounds.actuators[i] != alone.actuators[i]),
-            )
-            for i, actuator in enumerate(graph.actuators)
-        ),
+        tuple(found[number][2][place] for place, number in enumerate(numbers)),
         tuple(_edges(graph, below, bounds, rests)),
         {name: rests.of_dead(name) for name, bound in bounds.influence.items() if bound.high <= 0},
     )
+
+
+def _bounded(
+    graph: Graph, weights: Mapping[str, Weights], delta: float
+) -> tuple[ProvedReach, _Rests, list[ActuatorClaims]]:
+    """The bounds of a hierarchy, what they rest on, and the claims about each actuator."""
+    count = len(graph.actuators)
+    found, alone = influence_edges(graph), prove_reach(graph, weights)
+    tried = try_readings(graph, weights)
+    bounds = tighten(graph, weights, alone, [seen.readings is not None for seen in tried])
+    listed, leaking = paths(found, count, MAX_LISTED_PATHS), leaks(found, count, delta)
+    rests = _Rests(graph, weights, bounds)
+    claims = [
+        ActuatorClaims(
+            actuator,
+            listed[i],
+            leaking[i],
+            bounds.actuators[i],
+            tried[i],
+            rests.of_actuator(i, is_joint=bounds.actuators[i] != alone.actuators[i]),
+        )
+        for i, actuator in enumerate(graph.actuators)
+    ]
+    return bounds, rests, claims
 
 
 def _edges(graph: Graph, below: Sequence[Skill], bounds: ProvedReach, rests: _Rests) -> Iterator[EdgeClaim]:

@@ -11,18 +11,23 @@ are left.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
+from math import prod
 
 import numpy as np
 from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.weights import Weights, reachable
+from numpy.typing import NDArray
 
 from mindlang.proofs.branch_and_bound import EdgeRange, by_itself, halves, ranges, sway_of
 from mindlang.proofs.interval import Boxes, SentBounds, Singles, join_boxes, select_boxes, sent_bounds, whole_box
 
+Bools = NDArray[np.bool_]
 MAX_SKILL_BOXES, MAX_TOTAL_BOXES = 20_000, 500_000  # for one skill, for all of them
 ROUNDING_MARGIN = 2.0**-22
 MAX_BOXES, MIN_BOXES, MAX_BOX_SKILLS = 8192, 16, 100_000  # of all readings: boxes, and boxes times skills
 BOXES_PER_ROUND = 256
+MAX_CHOICES = 64  # that all skills make together, which are looked at one by one
 MIN_INFLUENCE = 1e-30  # below this, influence is so small that rounding alone may decide a command
 
 
@@ -94,17 +99,57 @@ def as_bounds(sends: Sequence[EdgeRange]) -> SentBounds:
 
 
 def influence_bounds(graph: Graph, boxes: int, sends: Callable[[Skill], SentBounds]) -> InfluenceBounds:
-    """Influence from the master down to the actuators, in so many boxes, from what each skill sends in them."""
+    """Influence from the master down to the actuators, in so many boxes, from what each skill sends in them.
+
+    Where skills choose, the bounds of all choices that they can make together, if these are not too many.
+    """
+    skills = reachable(graph, graph.master)
+    sent = {skill.name: sends(skill) for skill in skills}
+    choosing = [skill for skill in skills if skill.chooses]
+    choices = [_choices(skill, sent[skill.name]) for skill in choosing]
+    if not choosing or prod(map(len, choices)) > MAX_CHOICES:
+        return _sums(graph, boxes, sent)
+    least, most = np.full(boxes, np.inf, np.float32), np.zeros(boxes, np.float32)
+    found = InfluenceBounds(*(bound[:, None] for bound in (least, most, least, most)))
+    for made in product(*choices):
+        can_be = np.logical_and.reduce([possible for possible, _ in made])[:, None]
+        names = (skill.name for skill in choosing)
+        case = _sums(graph, boxes, sent | dict(zip(names, (bounds for _, bounds in made), strict=True)))
+        found = InfluenceBounds(
+            np.where(can_be, np.minimum(found.low, case.low), found.low),
+            np.where(can_be, np.maximum(found.high, case.high), found.high),
+            np.where(can_be, np.minimum(found.total_low, case.total_low), found.total_low),
+            np.where(can_be, np.maximum(found.total_high, case.total_high), found.total_high),
+        )
+    return found
+
+
+def _choices(skill: Skill, sent: SentBounds) -> list[tuple[Bools, SentBounds]]:
+    """The choices of a skill: the boxes in which it can make each, and what it sends then. One is to choose nothing."""
+    influences = [number for number, edge in enumerate(skill.edges) if edge.to == "skill"]
+    nothing: Bools = ~np.any(sent.sure[:, influences], axis=1)
+    found: list[tuple[Bools, SentBounds]] = []
+    for chosen in [*influences, None]:
+        low, high, sure = sent.low.copy(), sent.high.copy(), sent.sure.copy()
+        low[:, influences] = high[:, influences] = 0
+        if chosen is not None:
+            low[:, chosen], high[:, chosen], sure[:, chosen] = 1, 1, True
+        found.append((nothing if chosen is None else sent.high[:, chosen] > 0, SentBounds(low, high, sure)))
+    return found
+
+
+def _sums(graph: Graph, boxes: int, sent: Mapping[str, SentBounds]) -> InfluenceBounds:
+    """Influence from what each skill sends, edge by edge."""
     low, high = np.zeros((2, boxes, len(graph.skills)), np.float32)
     total_low, total_high = np.zeros((2, boxes, len(graph.actuators)), np.float32)
     places = graph.skill_numbers
     low[:, places[graph.master]] = high[:, places[graph.master]] = 1
     with np.errstate(all="ignore"):
         for skill in reachable(graph, graph.master):
-            found, place = sends(skill), places[skill.name]
+            found, place = sent[skill.name], places[skill.name]
             for number, edge in enumerate(skill.edges):
                 drives = edge.to == "actuator"
-                if edge.to == "memory":
+                if edge.to == "memory" or edge.cuts == np.inf:
                     continue
                 least = low[:, place] * (1 if drives else found.low[:, number])
                 most = high[:, place] * (1 if drives else found.high[:, number])

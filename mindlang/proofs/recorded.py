@@ -4,10 +4,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from mindrun.engine.engine import procedure_sources
+from mindrun.graph.scopes import influence_scopes
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import joined, trace
 from numpy.typing import NDArray
 
+from mindlang.run.edge_flow import edge_flows
 from mindlang.run.setup import RunSetup
 
 
@@ -38,9 +41,17 @@ def record_undriven(setup: RunSetup, seed: int, prepare: Callable[[Rollout], Non
     run = trace(rollout, seed)
     ticks = joined(run.chunks)
     influence = np.zeros_like(ticks.commands)  # on each actuator
-    for place in rollout.tables.skills["index"]:
-        for edge in rollout.graph.skills[place].edges:
-            if edge.to == "actuator":
+    graph = rollout.graph
+    if len(influence_scopes(graph).without) > 1:
+        sources = procedure_sources(graph, setup.folder, setup.master)
+        flows = edge_flows(setup.ready.policy, sources, setup.master, ticks)
+        drivers = [(place, link.target[1]) for place, link in enumerate(flows.links) if link.target[0] == "actuator"]
+        for part, flow in flows.parts(np.arange(len(ticks))):
+            for place, actuator in drivers:
+                influence[part, actuator] += flow.behind[:, place]
+    else:
+        for place in rollout.tables.skills["index"]:
+            for edge in (each for each in graph.skills[place].edges if each.to == "actuator"):
                 influence[:, edge.target] += ticks.influence[:, place]
     actuators = tuple(map(undriven, influence.T, ticks.commands.T))
     return Recorded(setup.task.name, seed, len(ticks), int(run.jobs.faults[0]), actuators)

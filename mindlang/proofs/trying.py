@@ -42,7 +42,7 @@ def think_rows(graph: Graph, weights: Mapping[str, Weights], readings: Singles) 
             for edge, value in zip(skill.edges, sent_values(skill, weights.get(skill.owner), readings).T, strict=True):
                 sound = np.isfinite(value)
                 share = np.where(sound, np.clip(value, 0, 1), 0) * own
-                if edge.to == "skill":
+                if edge.to == "skill" and edge.cuts < np.inf:
                     influence[:, edge.target] += np.where(share < np.float32(edge.cuts), np.float32(0), share)
                 elif edge.to == "actuator":
                     sums[:, edge.target] += share
@@ -62,6 +62,12 @@ def sent_values(skill: Skill, weights: Weights | None, readings: Singles) -> Sin
                 otherwise = np.float32(np.nan) if gate.otherwise is None else _evaluate(gate.otherwise, readings)
                 closed = np.where(holds == 0, otherwise, np.float32(np.nan))
                 found[:, number] = np.where(holds > 0, found[:, number], closed)
+    if skill.chooses:
+        influences = [number for number, edge in enumerate(skill.edges) if edge.to == "skill"]
+        can_be = np.isfinite(found[:, influences])
+        best = np.where(can_be, found[:, influences], -np.inf).argmax(axis=1)
+        chosen = best[:, None] == np.arange(len(influences))
+        found[:, influences] = np.where(can_be, chosen, np.float32(np.nan))
     return found
 
 

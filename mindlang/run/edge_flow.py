@@ -8,15 +8,16 @@ from typing import Protocol
 
 import numpy as np
 from mindrun.engine.think import Hierarchy, ReadySkill, hierarchy, values
-from mindrun.graph.graph import Graph, Receiver
+from mindrun.graph.graph import Graph
+from mindrun.graph.graph import Sink as Sink
 from mindrun.graph.policy import Policy
+from mindrun.graph.scopes import influence_scopes
 from mindrun.kinds.functions.function import Stateful
 from numpy.typing import NDArray
 
 Singles = NDArray[np.float32]
 Places = NDArray[np.int64]  # of rows, the first of which is 0
 Rows = Callable[[Places], tuple[Singles, Singles]]  # their readings [rows, width] and their influence [rows, skills]
-Sink = tuple[Receiver, int]  # which one of its kind
 NOTHING, NAN = np.float32(0.0), np.float32(np.nan)
 BLOCK_ROWS = 1024  # of what functions that remember have sent, kept together
 PART_EDGES = 1_000_000  # edges times rows that are computed at once, a few dozen bytes each
@@ -46,7 +47,7 @@ class EdgeFlow:
     `value` is what its skill sent, clamped; `behind` the influence of that skill; `carried` their product, as the
     engine adds it up. All are 0 where nothing was sent, and `carried` where it was cut. `transmitted` is the influence
     that came over the edge: all that is behind a command (Eq. 3), or what was carried (Eq. 2). `influence` [rows,
-    skills] is what they had.
+    skills] is what they had. Behind a command stands what of it counts for its actuator or memory.
     """
 
     value: Singles
@@ -77,6 +78,10 @@ class EdgeFlows:
         self._sources = np.repeat(np.array(self.skills, np.intp), self._counts)
         self._drives = np.array([edge.drives for edge in edges], bool)
         self._cuts = np.array([-np.inf if edge.drives else edge.cuts for edge in edges], np.float32)
+        self._scopes = influence_scopes(graph)
+        sinks = (self._scopes.of.get(link.target, 0) for link in self.links)
+        self._scope_of = np.array([*sinks], np.intp)  # of the sink of each edge
+        self._counts_in = [edge.scopes for edge in edges]
         remembering = [skill for skill in mind.skills if isinstance(skill.compute, Stateful)]
         self._kept = {skill.index: _Kept(skill, rows, begins) for skill in remembering}
         self._computing = Lock()
@@ -100,7 +105,37 @@ class EdgeFlows:
             value = np.where(is_sent & (sent > NOTHING), np.minimum(sent, np.float32(1.0)), NOTHING)
             product = value * behind
             carried = np.where(product < self._cuts, NOTHING, product)
-            return EdgeFlow(value, behind, carried, np.where(self._drives, behind, carried), influence)
+            flow = EdgeFlow(value, behind, carried, np.where(self._drives, behind, carried), influence)
+            for scope in range(1, len(self._scopes.without)):
+                inner, here = self._within(scope, flow), (self._scope_of == scope) & self._drives
+                for of, its in ((behind, inner.behind), (carried, inner.carried), (flow.transmitted, inner.behind)):
+                    of[:, here] = its[:, here]
+            return flow
+
+    def counted_for(self, sink: Sink, flow: EdgeFlow) -> EdgeFlow:
+        """The part of a flow that counts for a sink: all, but where influence is over other actuators and memories."""
+        scope = self._scopes.of.get(sink, 0)
+        with np.errstate(all="ignore"):
+            return self._within(scope, flow) if scope else flow
+
+    def _within(self, scope: int, flow: EdgeFlow) -> EdgeFlow:
+        """The flow in a scope. Influence that was replaced, and so is not what has been sent, counts in all of them."""
+        own, sent = np.zeros((2, *flow.influence.shape), np.float32)
+        own[:, self.skills[0]] = sent[:, self.skills[0]] = 1
+        behind, carried, seen = flow.behind.copy(), flow.carried.copy(), set[int]()
+        for place, (source, (_, target)) in enumerate((link.source, link.target) for link in self.links):
+            if source not in seen:  # parents come first: all that it is sent is there
+                seen.add(source)
+                is_sent = sent[:, source] == flow.influence[:, source]
+                own[:, source] = np.where(is_sent, own[:, source], flow.influence[:, source])
+            behind[:, place] = np.where(flow.behind[:, place] != 0, own[:, source], NOTHING)
+            product = flow.value[:, place] * behind[:, place]
+            is_cut = not (self._drives[place] or scope in self._counts_in[place]) or product < self._cuts[place]
+            carried[:, place] = np.where(is_cut, NOTHING, product)
+            if not self._drives[place]:
+                sent[:, target] += flow.carried[:, place]
+                own[:, target] += carried[:, place]
+        return EdgeFlow(flow.value, behind, carried, np.where(self._drives, behind, carried), own)
 
     def parts(self, rows: Places) -> Iterator[tuple[slice, EdgeFlow]]:
         """The flow in these rows, as many at a time as fit into memory, each part with its places among them."""

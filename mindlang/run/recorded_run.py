@@ -109,7 +109,9 @@ class RecordedRun:
 
     def _jumps(self, thing: int) -> NDArray[np.int64]:
         """The ticks after which it stood elsewhere than a claw or its own speed have brought it."""
-        far = REAPPEARANCE_UNITS + self.contents[thing].kind.speed * self.graph.tick
+        kind, name = self.contents[thing].kind, self.contents[thing].name
+        varied = (each.high for each in self.setup.task.varies if (each.of, each.argument) == (name, "speed"))
+        far = REAPPEARANCE_UNITS + max([kind.speed, *varied]) * self.graph.tick
         moved = np.linalg.norm(np.diff(self.things[:, thing, :2], axis=0), axis=1)
         return np.flatnonzero((moved > far) & (self.held[1:] != thing)) + 1
 

@@ -16,6 +16,7 @@ from lark import UnexpectedInput
 from lark.lexer import PatternStr
 from mindrun.kinds import registry
 from mindrun.kinds.registry import kinds, named_arguments
+from mindrun.kinds.things.thing import ROBOT
 from mindrun.numbers.quantity import FUNCTION, Reference
 from mindrun.sim.outside import making
 
@@ -65,6 +66,7 @@ WORDS: Mapping[str, Mapping[str, str]] = {
     "tick": {"rewards": "tick", "fails": "tick", "stop": "tick"},
     "facing": {"starts": "facing"},
     "cuts": {"influences": "cuts below"},
+    "over": {"influences": "over"},
     "by": {},
     "from": {},
     "computed": {},
@@ -268,6 +270,7 @@ def _arguments(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
         case "of", None if said.kind == FAULT:
             yield from names(line.view, "sensor")
         case key, registry.Argument(type=Reference(noun="thing")):
+            yield from words(*[ROBOT] * (said.noun == "content"))
             yield from things(line.view, line.owner, about(said.noun, said.kind, key))
         case _, registry.Argument(type=meaning) if meaning == FUNCTION:
             yield from (Offer(name, "function") for name in functions(line.folder))
@@ -283,6 +286,8 @@ def _names(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
             nouns = ("number", *(["draw"] if isinstance(nodes[0], syntax.Contains) else []))
         case [syntax.Stays(), _]:
             yield from words("frozen")
+        case [syntax.Chooses(), _]:
+            yield from words("one")
         case [*_, syntax.Needs(), _]:
             yield from words(*MEASURED)
         case [syntax.Varies() as fact, name]:
@@ -313,6 +318,9 @@ def _sayable(line: CursorLine, nodes: Sequence[Any], known: list[Offer]) -> list
         case syntax.Reads() | syntax.Sends() as fact if fact.name is nodes[-1]:
             but = line.said(type(fact)) | ({own.name.text} if own else set())
             return [each for each in known if each.label not in but]
+        case syntax.Influences(over=over) if over and nodes[-1] in over:
+            said = {each.text for each in over}
+            return [each for each in known if each.label not in said]
         case syntax.Sends():
             read = line.said(syntax.Reads)
             return [each for each in known if each.sort == "number" or each.label in read]

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import torch
+from mindrun.errors import MindError
+from mindrun.graph.graph import Skill as GraphSkill
 from mindrun.graph.weights import Weights
 from mindrun.numbers.arithmetic import DENOMINATOR, LIMIT, NUMERATOR
 from mindrun.numbers.network import Terms, matrices
@@ -134,6 +136,7 @@ class NetworkModule(nn.Module):
     def __init__(self, network: SkillNetwork, genome: Weights) -> None:
         super().__init__()
         self.network = network
+        self.choice = _choice(network.skill)
         self.layers = nn.ModuleList(Layer(before, after) for before, after in network.shapes)
         self.take(genome)
 
@@ -141,6 +144,8 @@ class NetworkModule(nn.Module):
         """The values sent; of a network that remembers, with its state after the tick."""
         values, after = self._computed(readings, state)
         sent = ReturningClamp.apply(values)
+        if self.choice:
+            sent = sent.index_copy(-1, torch.tensor(self.choice, device=sent.device), _chosen(values[..., self.choice]))
         return (sent, after) if self.network.state else sent
 
     def before_clamp(self, readings: Tensor) -> Tensor:
@@ -196,6 +201,31 @@ class Skill(NetworkModule):
     def load(self, path: Path | str) -> None:
         """Load the weights of a file; WeightsError where they are not those of this skill."""
         self.take(genome_in(Path(path), read_bytes(Path(path)), self.network))
+
+
+def _choice(skill: GraphSkill) -> list[int]:
+    """The outputs of a skill that chooses among which it does; none of one that does not.
+
+    MindError where it chooses among what no output says, too.
+    """
+    influences = [edge for edge in skill.edges if edge.to == "skill"] if skill.chooses else []
+    found = [edge.output for edge in influences if edge.output is not None and edge.gate is None]
+    if len(found) < len(influences):
+        message = f"{skill.name} chooses among lines with at or when, of which its function knows nothing"
+        raise MindError(message, "Leave at and when out of its influences, or let it choose in the engine.")
+    return found
+
+
+def _chosen(values: Tensor) -> Tensor:
+    """1 for the greatest of the values [..., n], of equals the first, and 0 for the others; NaN where one is no number.
+
+    The derivatives are those of a softmax: a choice itself has none.
+    """
+    is_number = torch.isfinite(values)
+    among = torch.where(is_number, values, -torch.inf)
+    soft = torch.softmax(among, -1)
+    one = torch.nn.functional.one_hot(among.argmax(-1), values.shape[-1]).to(values)
+    return torch.where(is_number, one + (soft - soft.detach()), torch.nan)
 
 
 def _random(network: SkillNetwork) -> Weights:

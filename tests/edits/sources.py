@@ -124,6 +124,8 @@ THINGS = [
         *("cat is walker size 2", "cat is walker at 2.5 2.5 or 7.5 2.5", "cat is walker within nest"),
         "cat is walker along 2.5 -2.5 to 7.5 -2.5",
         "cat is walker along 2.5 -2.5 to 7.5 -2.5 or 2.5 2.5 to 7.5 2.5 from anywhere",
+        *("cat is walker seeks robot", "cat is walker flees robot range 9", "cat is walker seeks cat range 20"),
+        "cat is walker flees cat",
     ],
 ]
 DRAWN = [
@@ -134,7 +136,7 @@ STARTS = ["starts at 2.5 12.5", "starts facing -45 deg", "starts at 2.5 12.5 fac
 SPREADS = [
     ["varies noise of eye 0 to 10%", "varies lost of ball_bearing 0 to 5%", "varies delay of moving 0 to 2 ticks"],
     ["varies density of Robot 1 to 3", "varies noise of left_wheel 0 to 1/4"],
-    ["varies density of crate 0.5 to 1", "varies delay of right_wheel 1 to 3 ticks"],
+    ["varies density of crate 0.5 to 1", "varies speed of cat 1 to 3", "varies delay of right_wheel 1 to 3 ticks"],
     ["fails left_wheel 1% per s", "fails claw 0.1% per tick"],
     ["fails mast 0.01"],
 ]
@@ -271,6 +273,7 @@ def _more(rng: Random, noun: str, line: str) -> str:
         is_placed = not {"at", "along", "grid", "within"}.isdisjoint(words)
         words += ["away", "count", "size"] * is_placed  # a place has to be free
         words += ["grid", "at", "along", "or", "within", "from"]
+        words += ["seeks", "flees", "range"]  # of what there is
     words += ["size"] * (noun == "body")  # and there is as much room for the robot
     words += ["neutral"] * (kind == "order")  # which has to be one of them
     often = 0.5 if noun in ("curriculum", "body", "actuator") else 0.2
@@ -311,9 +314,15 @@ def _skill(rng: Random, name: str, function: str, below: list[str]) -> list[str]
         for i, edge in enumerate(edges)
     ]
     said = [edge + rng.choice(GATES).format(_value(rng, reads)) if rng.random() < 0.2 else edge for edge in said]
+    over = [f" over {' and '.join(rng.sample(sorted(ACTUATORS), rng.randint(1, 2)))}" for _ in said]
+    said = [
+        re.sub(r"^influences \S+", rf"\g<0>{each}", edge) if rng.random() < 0.2 else edge
+        for edge, each in zip(said, over, strict=True)
+    ]
     said = [f"{edge} cuts below 5%" if edge.startswith("inf") and rng.random() < 0.2 else edge for edge in said]
     frozen = ["stays frozen"] * (rng.random() < 0.2)
-    return [f"skill {name} is {function}", *(f"reads {reading}" for reading in reads), *said, *frozen]
+    chooses = ["chooses one"] * (bool(targets) and rng.random() < 0.3)
+    return [f"skill {name} is {function}", *(f"reads {reading}" for reading in reads), *said, *chooses, *frozen]
 
 
 def _like(rng: Random, owner: list[str]) -> list[str]:
@@ -342,8 +351,8 @@ def _in_scene(rng: Random, task: list[str]) -> list[list[str]]:
     (header, phrase), facts = task[0].split(" in "), task[1:]
     name = f"{header.split()[1].replace('+', '')}World"
     of_world = [fact for fact in facts if fact.startswith(("contains", "starts", "varies", "fails"))]
-    own = (" of crate", " within nest", " pit ")  # of what is said elsewhere
-    things = [fact for fact in of_world if not any(word in fact for word in own) and rng.random() < 0.7]
+    own = " of (crate|cat)| within nest| pit "  # of what is said elsewhere
+    things = [fact for fact in of_world if not re.search(own, fact) and rng.random() < 0.7]
     scene = [f"scene {name} is {phrase}", *things]
     other = [f"scene {name}More is like {name}", *(thing for thing in things if rng.random() < 0.2)]
     is_like = rng.random() < 0.3

@@ -163,6 +163,7 @@ task Run in Flat
         ("skill Seek", "drives left when eye > 0.5 otherwise 0.2", "drives left"),
         ("skill Go", "influences Seek at eye cuts below 5%", "influences Seek at eye cuts below 6%"),
         ("skill Go", "influences Seek at eye cuts below 5%", "influences Seek at eye"),
+        ("skill Go", "influences Seek at eye cuts below 5%", "influences Seek over left at eye cuts below 5%"),
         ("task Run", "starts at 0 0 facing 90 deg", "starts at 0 1 facing 90 deg"),
         ("task Run", "starts at 0 0 facing 90 deg", "starts facing 90 deg"),
         ("task Run", "starts at 0 0 facing 90 deg", ""),

@@ -1,7 +1,7 @@
 """Examples of the rules beside their own: other ways to write what those show, and corners."""
 
 from mindlang.lint.examples import COURSE, EYE, READS
-from mindlang.lint.rules import Rule, all_rules, edge_at_zero
+from mindlang.lint.rules import Rule, all_rules, deep_hierarchy, edge_at_zero, idle_influence, single_way
 from mindlang.lint.rules.chance_meeting import HALL
 from mindlang.lint.rules.direction_as_number import SENSORS, SKILL
 from mindlang.lint.rules.paid_at_once import TASK
@@ -9,6 +9,10 @@ from mindlang.lint.rules.walled_off import HALL as WALLED_HALL
 
 BEGIN = EYE + COURSE
 GOOD = {
+    "edge-at-zero": (f"{edge_at_zero.HIERARCHY}  influences Back at 0\n  chooses one\n",),
+    "idle-influence": (f"{idle_influence.BAD}  chooses one\n",),
+    "deep-hierarchy": (deep_hierarchy.BAD.replace("  influences", "  chooses one\n  influences", 1),),
+    "single-way": (f"{single_way.PARTS}  influences Look at 1\n",),
     "direction-as-number": (
         f"{SENSORS}{SKILL} north > 90% and north <= 1\n",
         f"{SENSORS}{SKILL} north > 1\n",
@@ -29,6 +33,7 @@ task Run in arena
     "zero-division": (f"{BEGIN}  rewards eye / 2 per tick\n",),
 }
 BAD = {
+    "single-way": (f"{single_way.PARTS}  influences Look at 1\n  chooses one\n",),
     "chance-meeting": (
         HALL.format(2).replace("  lasts", "  starts at 8 2\n  lasts") + "body Robot is box size 4 1\n",
         HALL.format(2).replace("size 40", "size 40 8") + "body Robot is box size 10 1\n",

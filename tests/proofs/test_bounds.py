@@ -1,5 +1,6 @@
 """Bounds are sound: whatever the engine computes for readings in 0..1 lies inside, on random and shipped minds."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from mindrun.engine.think import think as really_think
 from mindrun.engine.think import values as really_sent
 from mindrun.graph.graph import Edge, Graph, Skill
 from mindrun.graph.policy import Policy
+from mindrun.graph.scopes import influence_scopes, within_scope
 from mindrun.graph.weights import Weights, genes, reachable
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.numbers.arithmetic import sigmoid
@@ -22,7 +24,7 @@ from mindlang.lock.status import make_ready
 from mindlang.proofs.interval import SIGMOID_ERROR
 from mindlang.proofs.proof import ActuatorClaims, Proof, prove
 from mindlang.proofs.reach import MIN_INFLUENCE, ProvedReach, prove_reach
-from mindlang.proofs.trying import sent_values, think_rows
+from mindlang.proofs.trying import ThoughtRows, sent_values, think_rows
 from tests.draws import cases
 from tests.hierarchies import PROCEDURES, SCALES, random_graph
 from tests.minds import always, mind, rule, skill
@@ -60,7 +62,7 @@ def lies_inside(
             assert sound.all() or not sends.sure
             value = np.clip(value[sound], 0, 1)
             assert ((sends.low <= value) & (value <= sends.high)).all()
-    thoughts = think_rows(graph, weights, readings)
+    thoughts = thoughts_of(graph, weights, readings)
     for name, bound in bounds.influence.items():
         found = thoughts.influence[:, names[name]]
         found = found[~np.isnan(found)]
@@ -68,6 +70,18 @@ def lies_inside(
         assert name not in proof.dead or not found.any()
     for place, claim in enumerate(proof.actuators):
         commanded(claim, thoughts.total[:, place], thoughts.command[:, place])
+
+
+def thoughts_of(graph: Graph, weights: Mapping[str, Weights], readings: np.ndarray) -> ThoughtRows:
+    """All influence, and of each actuator what counts for it."""
+    scopes = influence_scopes(graph)
+    rows = [think_rows(within_scope(graph, scopes, n), weights, readings) for n in range(len(scopes.without))]
+    places = [(i, rows[scopes.of["actuator", i]]) for i in range(len(graph.actuators))]
+    total, command = (
+        np.stack([each[:, i] for (i, _), each in zip(places, of, strict=True)], axis=1)
+        for of in ([row.total for _, row in places], [row.command for _, row in places])
+    )
+    return ThoughtRows(rows[0].influence, total, command)
 
 
 def commanded(claim: ActuatorClaims, total: np.ndarray, command: np.ndarray) -> None:
@@ -107,7 +121,7 @@ def test_what_the_real_engine_does(graph: Graph, scale: float, seed: int) -> Non
     weights = some_weights(graph, scale, rng)
     bounds = prove_reach(graph, weights)
     readings = in_the_box(graph, 12, rng)
-    thoughts = think_rows(graph, weights, readings)
+    thoughts = thoughts_of(graph, weights, readings)
     made = hierarchy(Policy(graph, weights), procedure_sources(graph, PROCEDURES), graph.master)
     actuators = len(graph.actuators)
     for row, now in enumerate(readings):

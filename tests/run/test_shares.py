@@ -13,6 +13,7 @@ from mindrun.engine.engine import Engine, procedure_sources
 from mindrun.engine.think import Hierarchy, hierarchy, values
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
+from mindrun.graph.scopes import influence_scopes
 from numpy.typing import NDArray
 
 from mindlang.attribution.shares import Shares, shares
@@ -57,6 +58,18 @@ def sinks(flows: EdgeFlows) -> list[Sink]:
     return [sink for sink in found if sink is not None]
 
 
+Sent = list[list[np.float32 | None]]  # by each skill over its edges, nothing where it did not compute
+
+
+def sent_values(mind: Hierarchy, run: Thought, row: int) -> Sent:
+    """The values of a row. Computes each skill once, as an engine does."""
+    nothing = [[None] * len(skill.edges) for skill in mind.skills]
+    return [
+        values(skill, run.readings[row]) if run.influence[row, skill.index] != 0 else none
+        for skill, none in zip(mind.skills, nothing, strict=True)
+    ]
+
+
 @dataclass
 class Exact:
     """One tick in fractions: what came over each edge to each target as (its skill, what it carried, the influence)."""
@@ -65,23 +78,27 @@ class Exact:
     came: dict[Sink, list[tuple[int, Fraction, Fraction]]] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, graph: Graph, mind: Hierarchy, run: Thought, row: int) -> "Exact | None":
-        """The tick; None where something overflows or is no number. Computes each skill once, as an engine does."""
+    def of(cls, graph: Graph, mind: Hierarchy, sent: Sent, scope: int) -> "Exact | None":
+        """The tick in a scope; None where something overflows or is no number."""
         found = cls(graph)
         sound = True
-        for skill in mind.skills:
-            own = run.influence[row, skill.index]
-            if own == 0:
-                continue
-            for edge, value in zip(skill.edges, values(skill, run.readings[row]), strict=True):
-                if value is None or not np.isfinite(value):
+        influence = np.zeros(len(graph.skills), np.float32)
+        influence[mind.master] = 1
+        for skill, numbers in zip(mind.skills, sent, strict=True):
+            own = influence[skill.index]
+            for edge, value in zip(skill.edges, numbers, strict=True):
+                if value is None or not np.isfinite(value) or own == 0:
                     continue
                 carried = np.float32(min(max(value, np.float32(0)), np.float32(1))) * own
                 if not np.isfinite(carried):
                     sound = False
+                elif not edge.drives and scope not in edge.scopes:
+                    continue
                 elif edge.drives or not carried < edge.cuts:
                     kind = "skill" if not edge.drives else "actuator" if edge.to < len(graph.actuators) else "memory"
                     place = edge.to - len(graph.actuators) * (kind == "memory")
+                    if not edge.drives:
+                        influence[edge.to] += carried
                     came = Fraction(float(carried)), Fraction(float(own))
                     found.came.setdefault((kind, place), []).append((skill.index, *came))
         largest = max((sum(each[2] for each in came) for came in found.came.values()), default=0)
@@ -118,9 +135,12 @@ def test_shares_are_those_of_every_path_in_exact_fractions(case: Case) -> None:
     flows = flows_of(case, run)
     with np.errstate(all="ignore"):
         made = hierarchy(Policy(graph, case.weights), procedure_sources(graph, PROCEDURES), graph.master)
-        exact = [Exact.of(graph, made, run, row) for row in range(len(run.readings))]
-    for row, tick in enumerate(exact):
-        for sink in sinks(flows) if tick else ():
+        sent = [sent_values(made, run, row) for row in range(len(run.readings))]
+        scopes = influence_scopes(graph)
+        exact = [[Exact.of(graph, made, each, scope) for scope in range(len(scopes.without))] for each in sent]
+    for row, ticks in enumerate(exact):
+        for sink in sinks(flows) if ticks[0] else ():
+            tick = ticks[scopes.of.get(sink, 0)]
             if sink == ("skill", flows.skills[0]):
                 continue
             assert tick

@@ -45,6 +45,7 @@ NAMES = {  # by the rule in which they stand, and there by their place among the
     "number": [DECLARED],
     "varies": [KEY],
     "stays": [VALUE],
+    "chooses": [VALUE],
     "contains": [DECLARED],
     "draws": [DECLARED],
     "each": [DECLARED, PART],
@@ -112,6 +113,10 @@ memory on is cell decay 1/3
 lasts 100 s
 tick 1/60 s
 stays frozen
+chooses one
+influences Stop over throttle and a.b at 1 when x > 2 cuts below 5%
+influences Stop over throttle
+contains cat is walker seeks robot range far
 counts collision
 use "a.mind" as a.b
 mind 1

@@ -46,6 +46,8 @@ class PlainWalkers:
             if kind.along:
                 self.go(i, self.ways[i][self.goals[i] % len(self.ways[i])], step)
                 continue
+            if (kind.seeks or kind.flees) and self.chases(i, kind, step):
+                continue
             x, y = place[0] + cosine(self.directions[i]) * step, place[1] + sine(self.directions[i]) * step
             half = place[2] / 2
             if self.may_step(place[:2], (x, y), half, step):
@@ -53,6 +55,25 @@ class PlainWalkers:
                 self.turned[i] = kind.turning * math.sqrt(3 * self.of.graph.tick)
             else:
                 self.turned[i] = None
+
+    def chases(self, i, kind, step):
+        """Whether it went straight towards the nearest that it seeks, or away from what it flees."""
+        place, name = self.of.places[i], kind.seeks or kind.flees
+        others = [self.of.places[j][:2] for j, thing in enumerate(self.of.things) if thing.name == name and j != i]
+        others = [(self.of.x, self.of.y)] if name == "robot" else [each for each in others if not math.isnan(each[0])]
+        ways = [(x - place[0], y - place[1]) for x, y in others]
+        ways = [(math.sqrt(dx * dx + dy * dy), dx, dy) for dx, dy in ways]
+        far, dx, dy = min(ways, key=lambda way: way[0], default=(math.inf, 0.0, 0.0))
+        if far > kind.range:
+            return False
+        if far == 0:
+            return bool(kind.seeks)
+        share = min(step / far, 1.0) if kind.seeks else -step / far
+        to = place[0] + dx * share, place[1] + dy * share
+        if not self.may_step(place[:2], to, place[2] / 2, step):
+            return False
+        place[:2] = to
+        return True
 
     def go(self, i, goal, step):
         """Towards a place, and not beyond it."""

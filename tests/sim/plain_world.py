@@ -237,10 +237,10 @@ class PlainWorld:
         self.x, self.y, self.angle = state[:3]
         for i, (body, _) in self.body.loose.there.items():
             self.places[i][:2] = body.position
-        self.walkers.walk()
         if self.held >= 0:
             hold = front_of(self.graph.body) + self.body.largest[self.held] / 2
             self.places[self.held][:2] = self.x + cosine(self.angle) * hold, self.y + sine(self.angle) * hold
+        self.walkers.walk()
         powered = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, Power)]
         if self.runs_down:
             charged = any(self.inside(i, self.x, self.y) for i in powered)

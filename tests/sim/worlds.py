@@ -21,7 +21,7 @@ from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.kinds.things.thing import Ball, Item, LooseBox, Power, Zone
 from mindrun.kinds.things.walker import Begin, Walker
 from mindrun.kinds.things.wall import Wall
-from mindrun.numbers.quantity import UNSAID, Span
+from mindrun.numbers.quantity import FARTHEST_UNITS, UNSAID, Span
 
 from tests.hierarchies import combined, conditions, random_graph
 
@@ -35,6 +35,7 @@ DRAWS = st.sampled_from([
     Draw("side", (-4.0, 3.0)), Draw("side", (1.0, 5.0, -2.5)), Draw("far", (-6.0, 6.0), True), Draw("far", (2.0,)),
 ])  # fmt: skip
 SPEEDS, TURNINGS = st.sampled_from([0.5, 3.0, 20.0, 300.0]), st.sampled_from([0.0, 1.5, 10.0])
+RANGES = st.sampled_from([FARTHEST_UNITS, FARTHEST_UNITS, 0.5, 6.0])  # from how far away a walker seeks or flees
 MAZES = [("#..#", "....", "##.."), ("#.#", "...", "###", "..#")]
 NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
 OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])
@@ -67,6 +68,8 @@ RANGES = {  # of what varies
     "density": st.sampled_from([(0.1, 3.0), (1.0, 1.5)]),
     "friction": st.sampled_from([(0.0, 1.0), (0.3, 0.3)]),
     "damping": st.just((0.0, 9.0)),
+    "speed": st.sampled_from([(0.5, 20.0), (3.0, 3.0)]),
+    "turning": st.just((0.0, 10.0)),
     "linear_damping": st.just((0.0, 9.0)),
     "angular_damping": st.just((1.0, 30.0)),
 }
@@ -173,6 +176,22 @@ def learner_kinds(draw: st.DrawFn) -> Learner:
 
 
 @st.composite
+def _goings(draw: st.DrawFn, placed: dict[str, Any], names: list[str]) -> dict[str, Any]:
+    """How a walker goes: along ways, after one of these names or away from it, or anywhere from where it is placed."""
+    match draw(st.sampled_from(["along", "ways", "seeks", "flees", ""])):
+        case "along":
+            return {"along": draw(st.sampled_from(PATHS)), "count": draw(st.sampled_from([1, 2]))}
+        case "ways":
+            ways = ((PATHS[0],), (), (WAYS[1], PATHS[1]))
+            begins = {"or_": draw(st.sampled_from(ways)), "from_": draw(st.sampled_from(get_args(Begin)))}
+            return {"along": draw(st.sampled_from(PATHS)), "count": draw(st.sampled_from([1, 2])), **begins}
+        case "":
+            return placed
+        case aim:
+            return {**placed, aim: draw(st.sampled_from(names)), "range": draw(RANGES)}
+
+
+@st.composite
 def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...]) -> tuple[Thing, ...]:
     """Items, zones and powers, some of them not there; obstacles on a grid or loose."""
     things: list[Thing] = []
@@ -195,19 +214,17 @@ def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...]) -> tuple
             at = (at,) if at else ()
             count = 1 if at else draw(st.sampled_from([1, 1, 2, 3]))
             placed = {"away": UNSAID if at else draw(AWAY), "at": at, "count": count}
-            if kind is Walker and draw(st.booleans()):
-                placed = {"along": draw(st.sampled_from(PATHS)), "count": draw(st.sampled_from([1, 2]))}
-                if draw(st.booleans()):  # which way it is on, nobody else knows when it has moved
-                    ways = ((PATHS[0],), (), (WAYS[1], PATHS[1]))
-                    placed |= {"or_": draw(st.sampled_from(ways)), "from_": draw(st.sampled_from(get_args(Begin)))}
-                    outcomes["reached"] = "stays" if outcomes["reached"] == "moves" else outcomes["reached"]
-            elif draw(st.integers(0, 3)) == 0:
+            if draw(st.integers(0, 3)) == 0:
                 zones = [each.name for each in things if each.kind.is_area and not each.kind.within]
                 regions = st.sampled_from([*zones, ((-5.0, -4.0), (4.0, 4.0)), ((-6.0, 2.0), (6.0, 2.0))])
                 placed = {"within": draw(regions), "away": draw(AWAY), "count": count}
             elif at and draw(st.booleans()):
                 others = draw(st.lists(PLACES, min_size=1, max_size=3))
                 placed |= {"or_": tuple((place,) for place in others), "count": draw(st.sampled_from([1, 2]))}
+            if kind is Walker:
+                placed = draw(_goings(placed, ["robot", "cat", *(thing.name for thing in things)]))
+                if "from_" in placed and outcomes["reached"] == "moves":
+                    outcomes["reached"] = "stays"  # which way it is on, nobody else knows when it has moved
             made = kind(size=draw(size), **placed, **outcomes, **drawn)
             has_room = not made.within or made.mistake(scene) is None
             things.append(Thing(name, made if has_room else replace(made, within=""), draw(_presence(draws))))

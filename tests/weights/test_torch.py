@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mindrun.errors import MindError
 
 import mindlang
 from mindlang.compiler.compile import load
@@ -154,3 +155,22 @@ def test_torch_is_imported_when_it_is_needed() -> None:
     program = "import sys, mindlang, mindlang.torch; print('torch' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout == "False\n"
+
+
+def test_what_chooses_sends_the_choice_of_the_engine(tmp_path: Path) -> None:
+    """Of two influences the greater is 1; the derivatives of the choice are those of a softmax."""
+    text = MIND.replace("  influences Grab at 1\n", "  chooses one\n")
+    graph = load(write_mind(tmp_path, text)).graph
+    assert graph is not None
+    own = network_of(arrange(graph, {}), "Drive")
+    module = NetworkModule(own, own.skill.function.draw(own.inputs, own.outputs, 1, np.random.default_rng(1))[0])
+    rows = torch.rand(64, own.inputs)
+    values, sent = module.before_clamp(rows), module(rows)
+    assert torch.equal(sent.argmax(-1), values.argmax(-1))
+    assert torch.equal(sent.sort(-1).values, torch.tensor([0.0, 1.0]).expand(64, 2))
+    sent[:, 0].sum().backward()
+    assert all(layer.weight.grad is not None and layer.weight.grad.abs().sum() > 0 for layer in module.layers)
+    graph = load(write_mind(tmp_path, text.replace("  chooses one\n", "  chooses one\n  influences Grab at 1\n"))).graph
+    assert graph is not None
+    with pytest.raises(MindError, match="chooses among lines with at"):
+        NetworkModule(network_of(arrange(graph, {}), "Drive"), module.genome())

@@ -18,16 +18,19 @@ _NUMBER = re.compile(r"([+-]?)[ \t]*([0-9./]+)")
 # Rules whose parts are the fields of a struct in their order, but for the span; the last may be missing.
 _FORMS: Mapping[str, type[Struct]] = {
     "master": syntax.Master, "tick": syntax.Tick, "mind": syntax.Version, "unit": syntax.Unit, "number": syntax.Number,
-    "reads": syntax.Reads, "gate": syntax.Gate, "stays": syntax.Stays, "contains": syntax.Contains,
-    "varies": syntax.Varies, "fails": syntax.Fails, "lasts": syntax.Lasts, "counts": syntax.Counts,
-    "transmission": syntax.Transmits, "needs": syntax.Needs, "each": syntax.Each, "when": syntax.When,
-    "comparison": syntax.Comparison, "argument": Argument, "setting": Argument, "origin": Argument,
+    "reads": syntax.Reads, "gate": syntax.Gate, "chooses": syntax.Chooses, "stays": syntax.Stays,
+    "contains": syntax.Contains, "varies": syntax.Varies, "fails": syntax.Fails, "lasts": syntax.Lasts,
+    "counts": syntax.Counts, "transmission": syntax.Transmits, "needs": syntax.Needs, "each": syntax.Each,
+    "when": syntax.When, "comparison": syntax.Comparison, "argument": Argument, "setting": Argument, "origin": Argument,
 }  # fmt: skip
 _OUTCOME = {"times": Amount, "event": Phrase, "when": syntax.When}
 # Rules any of whose parts may be missing: which field a part is, its type says.
 _FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, type]]] = {
     "drives": (syntax.Drives, {"name": Name, "at": Expression, "gate": syntax.Gate}),
-    "influences": (syntax.Influences, {"name": Name, "at": Expression, "gate": syntax.Gate, "cuts": Amount}),
+    "influences": (
+        syntax.Influences,
+        {"name": Name, "over": tuple, "at": Expression, "gate": syntax.Gate, "cuts": Amount},
+    ),
     "starts": (syntax.Starts, {"place": tuple, "facing": Amount}),
     "ends": (syntax.Ends, _OUTCOME),
     "succeeds": (syntax.Succeeds, _OUTCOME),
@@ -145,7 +148,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     def condition(self, meta: Any, parts: list[Any]) -> tuple[Any, ...]:
         return tuple(parts[::2])
 
-    conjunction = condition
+    conjunction = over = condition
 
     def phrase(self, meta: Any, parts: list[Any]) -> Phrase:
         return Phrase(parts[0], tuple(parts[1:]), self._span(meta))

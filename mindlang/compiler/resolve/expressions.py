@@ -93,7 +93,10 @@ def _refuse_unknown(term: Phrase, visible: Visible, findings: Findings) -> None:
     if name in TRUTH:
         findings.error("truth", here, f"{name} is no reading: every value is a number.", f"Write {TRUTH[name]}.")
     elif name in visible.readings:
-        findings.error("reading-argument", term.span, f"{name} is a reading and takes no arguments.", f"Write {name}.")
+        over = next((each for each in term.arguments if each.key.text == "over"), None)
+        hint = f"Write {over.span.text} right behind the skill: influences Seek {over.span.text}." if over else ""
+        message = f"{name} is a reading and takes no arguments."
+        findings.error("reading-argument", term.span, message, hint or f"Write {name}.")
     elif visible.elsewhere and name in visible.elsewhere:
         hint = f"Add the line reads {name}; an expression after at sees the inputs of its own skill."
         findings.error("not-an-input", term.span, f"The skill does not read {name}.", hint)

@@ -7,7 +7,7 @@ from typing import Any
 
 from mindrun.kinds.registry import Argument as Parameter
 from mindrun.kinds.registry import arguments, find_kind, kinds
-from mindrun.kinds.things.thing import AboutThing
+from mindrun.kinds.things.thing import ROBOT, AboutThing
 from mindrun.numbers.quantity import COORDINATE, SLOT, Quantity, Reference
 
 from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed
@@ -159,6 +159,11 @@ def about(noun: str, kind: str, argument: str = "of") -> Set[str]:
 
 def _check_thing(name: Name, noun: str, kind: str, key: str, scope: Scope, findings: Findings) -> None:
     if scope.things is None:
+        return
+    if noun == "content" and name.text == ROBOT:
+        if ROBOT in scope.things:
+            hint = "Give the thing another name."
+            findings.error("unfit-thing", name.span, f"{key} robot means the robot, and no thing of that name.", hint)
         return
     if name.text not in scope.things:
         add = f"Add contains {name.text} is {listed(sorted(about(noun, kind, key)))} to the task."

@@ -17,13 +17,13 @@ from mindlang.compiler.model import Part, source_graph
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.expressions import Visible, resolve_expression
 from mindlang.compiler.resolve.kinds import Scope, make_kind
-from mindlang.compiler.syntax import Declaration, Fact, verb_of
+from mindlang.compiler.syntax import Declaration, Fact, Name, verb_of
 
 MOST_READINGS = 20_000
 ONE_LINE = "All that there is to say of it stands in its one line; set the fact below the skill or task it belongs to."
 
 Parts = tuple[Part[Any], ...]
-F = TypeVar("F", bound=Fact)
+F = TypeVar("F", bound=Fact | Name)
 
 
 def resolve_parts(noun: str, names: Names, findings: Findings) -> Parts:

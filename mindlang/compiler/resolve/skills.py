@@ -13,13 +13,26 @@ from mindlang.compiler import model, syntax
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
 from mindlang.compiler.names import Names
+from mindlang.compiler.references import DRIVABLE_NOUNS
 from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.parts import refuse_facts, said_once
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Sends, Stays, Term, of_form, rebuilt
+from mindlang.compiler.syntax import (
+    Chooses,
+    Declaration,
+    Drives,
+    Influences,
+    Reads,
+    Sends,
+    Stays,
+    Term,
+    of_form,
+    rebuilt,
+)  # fmt: skip
 
 ONE = "Leave one of the two lines out."
+STATES: Mapping[type[Stays] | type[Chooses], tuple[str, str]] = {Stays: ("stay", "frozen"), Chooses: ("choose", "one")}
 
 
 def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple[model.Skill, ...]:
@@ -53,7 +66,7 @@ def _unsaid(declaration: Declaration) -> model.Skill:
 def _skill(
     name: str, declaration: Declaration, names: Names, widths: Mapping[str, int], findings: Findings
 ) -> model.Skill:
-    refuse_facts(declaration, ("reads", "drives", "influences", "stays"), findings)
+    refuse_facts(declaration, ("reads", "drives", "influences", "chooses", "stays"), findings)
     phrase = declaration.header.phrase
     function: Any = make_kind("skill", phrase, Scope(names, None), findings) if phrase else None
     reads = _reads(declaration, names, findings)
@@ -65,7 +78,8 @@ def _skill(
     edges = _edges(declaration, names, visible, findings)
     if function and declaration.whole:
         _check_works(declaration, function, edges, findings)
-    return model.Skill(name, function, reads, edges, _is_frozen(declaration, findings), declaration)
+    frozen, chooses = (_is_so(declaration, form, findings) for form in (Stays, Chooses))
+    return model.Skill(name, function, reads, edges, frozen, declaration, chooses=chooses)
 
 
 def _reads(declaration: Declaration, names: Names, findings: Findings) -> tuple[str, ...]:
@@ -86,28 +100,44 @@ def _repeated(fact: Reads | Drives | Influences) -> str:
 def _edges(declaration: Declaration, names: Names, visible: Visible, findings: Findings) -> tuple[model.Edge, ...]:
     edges: list[model.Edge] = []
     to: Receiver | None
+    over: tuple[str, ...]
     for fact in (fact for fact in declaration.facts if isinstance(fact, Drives | Influences)):
-        cuts = None
+        cuts, over = None, ()
         if isinstance(fact, Drives):
-            to = names.find(fact.name, ("actuator", "memory"), findings)
+            to = names.find(fact.name, DRIVABLE_NOUNS, findings)
         else:
             to = names.find(fact.name, ("skill",), findings)
             cuts = convert(fact.cuts, RATIO, findings) if fact.cuts else None
+            over = _over(fact, names, findings)
         at = resolve_expressions(fact.at, visible, findings)
         gate = resolve_expressions(fact.gate, visible, findings)
         if to:
-            edges.append(model.Edge(to, fact.name.text, at, fact, gate, cuts or 0.0))
+            edges.append(model.Edge(to, fact.name.text, at, fact, gate, cuts or 0.0, over))
     first = set(said_once((edge.fact for edge in edges), _repeated, findings, ONE))
     return tuple(edge for edge in edges if edge.fact in first)
 
 
-def _is_frozen(declaration: Declaration, findings: Findings) -> bool:
-    stays = of_form(declaration.facts, Stays)
-    for how in (fact.how for fact in stays if fact.how.text != "frozen"):
-        hint = "Write stays frozen, or leave the line out."
-        findings.error("unknown-state", how.span, f"A skill cannot stay {how.text}.", hint)
-    frozen = (fact for fact in stays if fact.how.text == "frozen")
-    return bool(said_once(frozen, lambda _: "The skill already stays frozen.", findings, ONE))
+def _over(fact: Influences, names: Names, findings: Findings) -> tuple[str, ...]:
+    """The actuators and memories over which an influence counts alone, by name; none where it counts for all."""
+    known = [name for name in fact.over or () if names.find(name, DRIVABLE_NOUNS, findings)]
+    over = said_once(known, lambda name: f"The influence is already over {name.text}.", findings, "Leave one out.")
+    return tuple(sorted(name.text for name in over))
+
+
+def _is_so(declaration: Declaration, form: type[Stays] | type[Chooses], findings: Findings) -> bool:
+    """True if a skill says `stays frozen` or `chooses one`, by the form of the line."""
+    said, (verb, word) = of_form(declaration.facts, form), STATES[form]
+    for how in (fact.how for fact in said if fact.how.text != word):
+        hint = f"Write {verb}s {word}, or leave the line out."
+        findings.error("unknown-state", how.span, f"A skill cannot {verb} {how.text}.", hint)
+    right = [fact for fact in said if fact.how.text == word]
+    is_idle = form is Chooses and declaration.whole and not of_form(declaration.facts, Influences)
+    for fact in right if is_idle else ():
+        hint = "Add influences and a skill, twice or more, or leave the line out."
+        findings.error(
+            "nothing-to-choose", fact.span, f"{declaration.header.name.text} has no influence to choose.", hint
+        )
+    return bool(said_once(right, lambda _: f"The skill already {verb}s {word}.", findings, ONE)) and not is_idle
 
 
 def _check_works(declaration: Declaration, function: Function, edges: Sequence[model.Edge], findings: Findings) -> None:
@@ -164,7 +194,7 @@ def _alike(
         return replace(node, operand=read.get(node.operand, node.operand)) if is_read else node
 
     edges = tuple(replace(edge, at=rebuilt(edge.at, reading), gate=rebuilt(edge.gate, reading)) for edge in other.edges)
-    return model.Skill(name, other.function, reads, edges, False, own, other.owner)
+    return model.Skill(name, other.function, reads, edges, False, own, other.owner, other.chooses)
 
 
 def _replaced(fact: Reads, other: model.Skill, names: Names, widths: Mapping[str, int], findings: Findings) -> str:

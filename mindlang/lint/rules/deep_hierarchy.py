@@ -3,7 +3,8 @@
 A skill that chooses what acts can leak: it should send 0 to one of two skills, and sends a little. Leaks add up on the
 way down. Where seven such choices stand one below the other, a leak of 1 % on each line can take more than half of a
 command, so `mindc prove` can no longer say who commands (0.56; 0.24 for five). Ask it whether that holds here, and let
-fewer choices stand one below the other: `cuts below` keeps small influence from arriving at all.
+fewer choices stand one below the other: `cuts below` keeps small influence from arriving at all, and a skill that
+`chooses one` does not leak.
 """
 
 from networkx import DiGraph, dag_longest_path
@@ -26,7 +27,7 @@ BAD = _choices("ABCDEFG")
 
 def check(study: Study) -> Found:
     choices = DiGraph()
-    for skill in study.mind.skills:
+    for skill in (each for each in study.mind.skills if not each.chooses):
         learnt = [edge.target for edge in skill.edges if edge.to == "skill" and edge.at is None and not edge.cuts]
         if len(learnt) > 1:
             choices.add_edges_from((skill.name, target) for target in learnt)

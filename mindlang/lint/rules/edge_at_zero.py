@@ -26,7 +26,7 @@ BAD = (
 
 def check(study: Study) -> Found:
     for skill, edge in study.edges:
-        if edge.at and is_zero_influence(edge):
+        if edge.at and is_zero_influence(edge) and not skill.chooses:
             message = f"{skill.name} never has influence on {edge.target}: this is always 0."
             hint = "Give it a value above 0, or take the line out."
             yield Finding(edge.at.span, message, hint, fix=removal(edge.fact) if len(skill.edges) > 1 else None)

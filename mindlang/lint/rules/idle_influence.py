@@ -43,7 +43,13 @@ def check(study: Study) -> Found:
         if all(drivers[name] == 1 for name in moved):
             alone[skill.name] = moved[0]
     for skill, edge in study.edges:
-        if skill.name not in study.active or edge.to != "skill" or edge.at is not None or edge.target not in alone:
+        if (
+            skill.chooses
+            or skill.name not in study.active
+            or edge.to != "skill"
+            or edge.at is not None
+            or edge.target not in alone
+        ):
             continue
         message = f"How much influence {skill.name} has on {edge.target} makes no difference, only whether it has any."
         unless = "unless it is to learn when it is on and when off (# noqa)"

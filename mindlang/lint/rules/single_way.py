@@ -39,8 +39,10 @@ def check(study: Study) -> Found:
         gate = above.get(actuator, master)
         if gate == master or graph.in_degree(actuator) < 2 or graph.has_edge(gate, actuator):
             continue
-        edges = [edge for skill in study.mind.skills for edge in skill.edges if edge.target == gate.name]
+        ways = [(each, edge) for each in study.mind.skills for edge in each.edges if edge.target == gate.name]
+        edges = [edge for _, edge in ways]
         is_always = edges and edges[0].gate is None and edges[0].at and is_constant(edges[0].at)
+        is_always = is_always and not ways[0][0].chooses
         if len(edges) == 1 and not is_always:
             message = f"All that drives {actuator.name} stands below {gate.name}, which is influenced here alone."
             hint = f"Let another skill drive {actuator.name}, or say # noqa: single-way if it may rest at its neutral."

@@ -20,7 +20,10 @@ BAD = (
 
 def check(study: Study) -> Found:
     # an influence that is always 0 is for edge-at-zero to tell
-    for value in (value for _, edge in study.edges if not is_zero_influence(edge) for value in edge.values):
+    sent = (
+        edge for skill, edge in study.edges if not (is_zero_influence(edge) or (skill.chooses and edge.to == "skill"))
+    )
+    for value in (value for edge in sent for value in edge.values):
         low, high = interval(value)
         if low > 1 or high < 0 or (not is_constant(value) and (low == 1 or high == 0)):
             clamped = 1 if low >= 1 else 0

@@ -76,7 +76,7 @@ class Engine:
         self._before: NDArray[np.float32] | None = None
         self._cells = np.array([memory.kind.start for memory in self.graph.memories], np.float32)
         self.readings = np.zeros(self.graph.width, np.float32)
-        self.influence = self._hierarchy.calm.copy()
+        self.influence = self._hierarchy.calm[0].copy()
         self.faults = 0
 
     def tick(self, readings: ArrayLike) -> NDArray[np.float32]:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from mindrun.graph.graph import Edge, Gate, Program
 from mindrun.graph.policy import Policy
+from mindrun.graph.scopes import Scopes, influence_scopes
 from mindrun.graph.weights import reachable, weights_of
 from mindrun.numbers.arrays import Compute
 from mindrun.numbers.expression import evaluate
@@ -22,7 +23,10 @@ _ZERO, _ONE = np.float32(0.0), np.float32(1.0)
 
 @dataclass(frozen=True, slots=True)
 class ReadyEdge:
-    """An edge, ready to be computed. `to` is a skill's index or, with `drives`, a place in the commands."""
+    """An edge, ready to be computed. `to` is a skill's index or, with `drives`, a place in the commands.
+
+    Influence counts in its `scopes`; a command is weighed by that of the one of its sink.
+    """
 
     drives: bool
     to: int
@@ -30,6 +34,7 @@ class ReadyEdge:
     value: Program
     gate: Gate | None
     cuts: np.float32
+    scopes: tuple[int, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,13 +45,14 @@ class ReadySkill:
     inputs: NDArray[np.intp]
     compute: Compute
     edges: tuple[ReadyEdge, ...]
+    chooses: bool
 
 
 @dataclass(frozen=True, slots=True)
 class Hierarchy:
     """The skills that a master reaches, made ready. Commands go over the actuators, then the memories.
 
-    `calm` [skills] is the influence before any is sent: 0, and NaN of skills that are not reached.
+    `calm` [scopes, skills] is the influence before any is sent: 0, and NaN of skills that are not reached.
     """
 
     skills: tuple[ReadySkill, ...]
@@ -68,16 +74,17 @@ class Thought:
 def hierarchy(policy: Policy, sources: Mapping[str, str], master: str) -> Hierarchy:
     """Make every skill ready that `master` reaches; WeightsError or ProcedureError where one cannot be."""
     graph = policy.graph
-    numbers = graph.skill_numbers
-    calm = np.full(len(numbers), np.nan, np.float32)
-    calm[[numbers[skill.name] for skill in reachable(graph, master)]] = _ZERO
+    numbers, scopes = graph.skill_numbers, influence_scopes(graph)
+    calm = np.full((len(scopes.without), len(numbers)), np.nan, np.float32)
+    calm[:, [numbers[skill.name] for skill in reachable(graph, master)]] = _ZERO
     return Hierarchy(
         tuple(
             ReadySkill(
                 numbers[skill.name],
                 np.array(skill.inputs, np.intp),
                 skill.function.ready(len(skill.inputs), skill.outputs, weights_of(skill, policy.weights), sources),
-                tuple(_sent(edge, len(graph.actuators)) for edge in skill.edges),
+                tuple(_sent(edge, len(graph.actuators), scopes) for edge in skill.edges),
+                skill.chooses,
             )
             for skill in reachable(graph, master)
         ),
@@ -87,9 +94,10 @@ def hierarchy(policy: Policy, sources: Mapping[str, str], master: str) -> Hierar
     )
 
 
-def _sent(edge: Edge, actuators: int) -> ReadyEdge:
-    place = edge.target + (actuators if edge.to == "memory" else 0)
-    return ReadyEdge(edge.to != "skill", place, edge.output, edge.value, edge.gate, np.float32(edge.cuts))
+def _sent(edge: Edge, actuators: int, scopes: Scopes) -> ReadyEdge:
+    place, cuts = edge.target + (actuators if edge.to == "memory" else 0), np.float32(edge.cuts)
+    counting = scopes.counting(edge) if edge.to == "skill" else (scopes.of[edge.to, edge.target],)
+    return ReadyEdge(edge.to != "skill", place, edge.output, edge.value, edge.gate, cuts, counting)
 
 
 def think(
@@ -100,14 +108,13 @@ def think(
     Influence that is `replaced`, by the index of its skill, is this, whatever all above it send.
     """
     influence = mind.calm.copy()
-    influence[mind.master] = _ONE
+    influence[:, mind.master] = _ONE
     commands, influences = np.zeros((2, mind.commands), np.float32)
     faults = 0
     for skill in mind.skills:
         if skill.index in replaced:
-            influence[skill.index] = replaced[skill.index]
-        own = influence[skill.index]
-        if own == 0:
+            influence[:, skill.index] = replaced[skill.index]
+        if influence[0, skill.index] == 0:
             continue
         for edge, value in zip(skill.edges, values(skill, readings), strict=True):
             if value is None:
@@ -115,28 +122,45 @@ def think(
             if not isfinite(value):
                 faults += 1
                 continue
-            value = clamped(value) * own
-            if edge.drives:
-                commands[edge.to] += value
-                influences[edge.to] += own
-            elif not value < edge.cuts:
-                influence[edge.to] += value
-    return _mean(influence, commands, influences, faults)
+            value = clamped(value)
+            for scope in edge.scopes:
+                own = influence[scope, skill.index]
+                if edge.drives:
+                    commands[edge.to] += value * own
+                    influences[edge.to] += own
+                elif not value * own < edge.cuts:
+                    influence[scope, edge.to] += value * own
+    return _mean(influence[0], commands, influences, faults)
 
 
 def values(skill: ReadySkill, readings: NDArray[np.float32]) -> list[np.float32 | None]:
     """The values [edges] that a skill sends, before the clamp; all NaN where one of its inputs is not finite.
 
-    None where a gate is closed and nothing is sent.
+    None where a gate is closed and nothing is sent. Of a skill that chooses, those of its influences are 0 and one 1.
     """
     inputs = readings[skill.inputs]
     if not np.isfinite(inputs).all():
         return [np.float32(np.nan)] * len(skill.edges)
     outputs = skill.compute(inputs)
-    return [
+    found = [
         gated(edge, edge.gate, outputs, readings) if edge.gate else value_of(edge, outputs, readings)
         for edge in skill.edges
     ]
+    return chosen(skill, found) if skill.chooses else found
+
+
+def chosen(skill: ReadySkill, found: list[np.float32 | None]) -> list[np.float32 | None]:
+    """The values with 1 for the influence that is greatest, of equals the first, and 0 for the others that are sent.
+
+    What is not sent, or not a number, is not chosen and stays so.
+    """
+    can_be = {
+        place: value
+        for place, (edge, value) in enumerate(zip(skill.edges, found, strict=True))
+        if not edge.drives and value is not None and isfinite(value)
+    }
+    best = max(can_be, key=can_be.__getitem__, default=None)
+    return [(_ONE if place == best else _ZERO) if place in can_be else value for place, value in enumerate(found)]
 
 
 def value_of(edge: ReadyEdge, outputs: NDArray[np.float32], readings: NDArray[np.float32]) -> np.float32:

@@ -7,7 +7,7 @@ from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from mindrun.errors import BundleError, MindError
-from mindrun.kinds.registry import LATER, bases, came_later, find_kind, names
+from mindrun.kinds.registry import bases, came_later, find_kind, is_left_out, names
 from mindrun.numbers.quantity import fits
 
 PLAIN = (bool, int, float, str)
@@ -32,7 +32,7 @@ def encode(value: object) -> Any:
     if not is_dataclass(value):
         return value
     said = ((field, getattr(value, field.name)) for field in fields(value))
-    data = {field.name: encode(part) for field, part in said if field.metadata != LATER or part != field.default}
+    data = {field.name: encode(part) for field, part in said if not (is_left_out(field) and part == field.default)}
     name = names().get(type(value))
     return data if name is None else {"is": name, **data}
 
@@ -106,10 +106,11 @@ def _kind(noun: str, data: Any, where: str) -> Any:
 def _fields(cls: type[Any], data: Any, where: str) -> Any:
     hints, name = _hints(cls), names().get(cls)
     expected = hints.keys() | ({"is"} if name else set())
-    left_out = {field.name for field in came_later(cls)}
-    if not isinstance(data, Mapping) or data.keys() | left_out != expected or data.get("is") != name:
+    optional = {field.name for field in came_later(cls)}
+    if not isinstance(data, Mapping) or not expected - optional <= data.keys() <= expected or data.get("is") != name:
         raise CodecError(f"{where} is not a {cls.__name__}")
-    return cls(**{name: decode(hint, data[name], f"{where}.{name}") for name, hint in hints.items() if name in data})
+    said = {name: hint for name, hint in hints.items() if name in data}
+    return cls(**{name: decode(hint, data[name], f"{where}.{name}") for name, hint in said.items()})
 
 
 def _plain(hint: Any, data: Any, where: str) -> Any:

@@ -33,6 +33,7 @@ def contents(bundle: Bundle) -> dict[str, Any]:
                 "inputs": len(s.inputs),
                 "weights": len(weights.get(s.owner, ())),
                 **({"like": s.like} if s.like else {}),
+                **({"chooses": "one"} if s.chooses else {}),
             }
             for s in graph.skills
         ],

@@ -1,6 +1,6 @@
 """The compiled hierarchy as plain data: names as indices, units converted, skills in the order of influence."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
 from mindrun.graph.draws import Draw
@@ -11,7 +11,7 @@ from mindrun.kinds.functions.function import Function
 from mindrun.kinds.learners import Learner
 from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.kinds.memory import Cell
-from mindrun.kinds.registry import LATER, arguments
+from mindrun.kinds.registry import arguments, left_out
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.kinds.things.thing import ThingKind
@@ -20,6 +20,7 @@ from mindrun.numbers.quantity import ANGLE, COORDINATE, RATIO, Place, Quantity
 from mindrun.numbers.short_repr import ShortRepr
 
 Receiver = Literal["skill", "actuator", "memory"]  # of what a skill sends
+Sink = tuple[Receiver, int]  # which one of its kind
 Varying = Literal["actuator", "sensor", "body", "thing"]  # what an argument can be of that varies
 VARIED_NOUNS: tuple[Varying, ...] = ("actuator", "sensor", "body")  # those of the robot
 
@@ -69,7 +70,8 @@ class Edge:
     """An edge of the hierarchy: a skill sends a value to the skill, actuator or memory with index `target`.
 
     The value is the function's output number `output`, or where that is None the `value` program, clamped to 0..1;
-    `gate` says when. An influence that is smaller than `cuts` when it arrives is none.
+    `gate` says when. An influence that is smaller than `cuts` when it arrives is none. One that is `over` some sinks,
+    each an actuator or memory with its index, in rising order, counts for these alone.
     """
 
     to: Receiver
@@ -78,6 +80,7 @@ class Edge:
     value: Program = ()
     gate: Gate | None = None
     cuts: float = 0.0
+    over: tuple[Sink, ...] = left_out(())
 
     @property
     def programs(self) -> tuple[Program, ...]:
@@ -90,7 +93,8 @@ class Skill:
     """A skill: `inputs` are indices into the readings, `edges` in the order of the source.
 
     Among a function's outputs number i belongs to the i-th edge without `at`. One that is `frozen` is not taught. One
-    that is `like` another has the same function, which sends the same, and shares its weights for ever.
+    that is `like` another has the same function, which sends the same, and shares its weights for ever. One that
+    `chooses` sends 1 over the influence that is greatest before the clamp, of equals the first, and 0 over its others.
     """
 
     name: str
@@ -99,6 +103,7 @@ class Skill:
     edges: tuple[Edge, ...]
     frozen: bool = False
     like: str = ""
+    chooses: bool = left_out(False)
 
     @property
     def owner(self) -> str:
@@ -121,8 +126,8 @@ class Thing:
 
     name: str
     kind: ThingKind
-    when: Program = field(default=(), metadata=LATER)
-    by: tuple[int, int] = field(default=(0, 0), metadata=LATER)
+    when: Program = left_out(())
+    by: tuple[int, int] = left_out((0, 0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -215,7 +220,7 @@ class Task:
     start: Start = Start()
     varies: tuple[Variation, ...] = ()
     fails: tuple[Failure, ...] = ()
-    draws: tuple[Draw, ...] = field(default=(), metadata=LATER)
+    draws: tuple[Draw, ...] = left_out(())
 
     @property
     def programs(self) -> tuple[Program, ...]:

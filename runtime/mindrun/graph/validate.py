@@ -9,7 +9,7 @@ from mindrun.graph.draws import MAX_VALUES
 from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task, varied_quantity
 from mindrun.graph.tasks import varied_kind
 from mindrun.kinds.registry import arguments
-from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS
+from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ROBOT
 from mindrun.numbers.expression import OPERATORS, is_condition, is_valid_program, leaves
 from mindrun.numbers.quantity import COORDINATE, NUMBER, THING, UNSAID, fits
 
@@ -106,6 +106,12 @@ def _skill_flaws(graph: Graph, number: int, skill: Skill, width: int) -> Iterato
         yield "has a condition that cannot be computed"
     if not all(0 <= edge.cuts <= 1 and (edge.to == "skill" or edge.cuts == 0) for edge in skill.edges):
         yield "cuts what cannot be cut"
+    if any(edge.over and (edge.to != "skill" or edge.over != tuple(sorted({*edge.over}))) for edge in skill.edges):
+        yield "has influence over what cannot be so"
+    if not all(to != "skill" and sink in targets.get(to, ()) for edge in skill.edges for to, sink in edge.over):
+        yield "has influence over what is not there"
+    if skill.chooses and all(edge.to != "skill" for edge in skill.edges):
+        yield "has nothing to choose"
 
 
 def _likeness_flaws(graph: Graph) -> Iterator[str]:
@@ -121,7 +127,8 @@ def _likeness_flaws(graph: Graph) -> Iterator[str]:
 
 def _shape(skill: Skill) -> object:
     """Function and number of inputs, which weights have to fit, and where the outputs go."""
-    return skill.function, len(skill.inputs), [(edge.to, edge.target, edge.output) for edge in skill.edges]
+    sent = [(edge.to, edge.target, edge.output, edge.over) for edge in skill.edges]
+    return skill.function, skill.chooses, len(skill.inputs), sent
 
 
 def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
@@ -133,9 +140,9 @@ def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
         yield "contains what has no name of its own"
     if any(thing.kind.size == UNSAID for thing in task.things):
         yield "contains what has no size"
-    about = (*task.events, *task.measures)
+    about = (*task.events, *task.measures, *(thing.kind for thing in task.things))
     named = {getattr(part, each.field) for part in about for each in arguments(type(part)) if each.type == THING}
-    if not named - {""} <= {thing.name for thing in task.things if not thing.kind.is_obstacle}:
+    if not named - {"", ROBOT} <= {thing.name for thing in task.things if not thing.kind.is_obstacle}:
         yield "names a thing that is not there"
     yield from _world_flaws(task)
     yield from _draw_flaws(task)

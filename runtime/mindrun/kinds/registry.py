@@ -19,7 +19,6 @@ ROOMS = {  # where the kinds of a noun stand: a module for each, of its name, or
     "memory": "mindrun.kinds.memory", "curriculum": "mindrun.kinds.learners",
     "sensor driver": "mindrun.robot.drivers", "actuator driver": "mindrun.robot.drivers",
 }  # fmt: skip
-LATER = {"later": True}  # metadata of a field that came later: plain data in which it is as by default lack it
 SHARED_NOUNS = {"scene": "task"}  # a scene is one of those that a task can be in
 _kinds: dict[str, dict[str, type[Any]]] = defaultdict(dict)
 _names: dict[type[Any], str] = {}
@@ -33,6 +32,16 @@ SHAPES: Mapping[Any, Shape] = {
     Span: "span", Extent: "extent", Place: "place", tuple[Place, ...]: "places", tuple[str, ...]: "lines",
     tuple[tuple[Place, ...], ...]: "alternatives", Region: "region",
 }  # fmt: skip
+
+
+def left_out(default: Any) -> Any:
+    """A dataclass's field that is left out of plain data where it has this value: what came later than the files."""
+    return field(default=default, metadata={"left out": True})
+
+
+def is_left_out(of: Field[Any]) -> bool:
+    """True if plain data has a field only where its value is not the default."""
+    return "left out" in of.metadata
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +102,7 @@ def _import_all(room: str) -> None:
 
 def came_later(cls: type[Any]) -> tuple[Field[Any], ...]:
     """The fields of a dataclass that are left out of its plain data where they are as by default."""
-    return tuple(each for each in fields(cls) if each.metadata == LATER)
+    return tuple(each for each in fields(cls) if is_left_out(each))
 
 
 def base(noun: str) -> Callable[[type[T]], type[T]]:

@@ -73,6 +73,8 @@ def fits(meaning: Quantity | Reference, value: object) -> bool:
 # Every number has bounds, far beyond any robot and far from where arithmetic or Chipmunk would give up.
 NUMBER = Quantity("a number", {"": 1.0}, low=-1e9, high=1e9)
 LENGTH = Quantity("a length in world units", {"": 1.0}, low=0.0, high=1e5)
+FARTHEST_UNITS = 1e9  # no limit to a distance: nothing is so far away
+DISTANCE = replace(LENGTH, name="a distance in world units", high=FARTHEST_UNITS)
 POSITIVE = Quantity("a number above zero", {"": 1.0}, low=1e-6, high=1e6)
 COORDINATE = replace(LENGTH, name="a coordinate in world units", low=-1e5)
 ANGLE = Quantity("an angle", {"deg": pi / 180}, low=-20 * pi, high=20 * pi)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Graph, Sensor, Task
 from mindrun.graph.measured import rows_of, used_sensors
+from mindrun.graph.scopes import influence_scopes
 from mindrun.graph.weights import genes, reachable
 from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.arithmetic import BOX_COLUMNS
@@ -47,7 +48,7 @@ def build(
     events, patches, arrivals = task_rows.event_rows(task)
     walls = [wall for thing in task.things for wall in thing.kind.walls]
     tables = Tables(
-        **sensors, **skills, **task_rows.walker_rows(task, graph.tick),
+        **sensors, **skills, **task_rows.walker_rows(task, graph.tick, parameters),
         world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside, master),
         codes=np.array(programs.rows, CODE), actuators=driven, memories=memory_rows(graph),
         things=task_rows.thing_rows(graph, task, parameters), loose=task_rows.loose_rows(task, graph.tick, parameters),
@@ -60,7 +61,8 @@ def build(
     )  # fmt: skip
     return tables, {
         **remembered, **most, "readings": max(1, graph.width), "genome": genome_length(graph, learners),
-        "skills": len(graph.skills), "depth": programs.depth, "delays": delays, "changes": changes,
+        "skills": len(graph.skills), "scoped": (len(influence_scopes(graph).without) - 1) * len(graph.skills),
+        "depth": programs.depth, "delays": delays, "changes": changes,
         "patches": patches, "arrivals": arrivals, "boxes": sum(each.kind.obstacles(task.scene) for each in task.things),
     }  # fmt: skip
 

@@ -72,8 +72,9 @@ SENSOR = _columns(
     f8="range period",
     f4="low high dead_zone gain blank",
 )
-SKILL = _columns(i8="index input inputs outputs hidden width weights own edge edges state", u8="lane address")
-EDGE = _columns(i8="to_skill target output code length when whens other others", f4="cuts")
+SKILL = _columns(i8="index input inputs outputs hidden width weights own edge edges state chooses", u8="lane address")
+# Scopes are rows of `mind.scoped`: that of what weighs a command, or −1, and those in which an influence counts, too.
+EDGE = _columns(i8="to_skill target output code length when whens other others scope scoped scopes", f4="cuts")
 CODE = _columns(i8="op arg", f8="value")
 ACTUATOR = _columns(
     i8="kind is_right delay ring is_noisy is_slipping is_rough thrust turn noise slip wait fails",
@@ -88,7 +89,7 @@ THING = _columns(
     f8="first last by low high hold x y left right below above",
 )
 LOOSE = _columns(i8="thing is_round density friction slower number turn")
-WALKING = _columns(i8="thing way ways copy is_anywhere is_drawn", f8="step turn")
+WALKING = _columns(i8="thing way ways copy is_anywhere is_drawn step turn after afters aim", f8="range")
 WAY = _columns(i8="first places")
 OBSTACLE = _columns(i8="columns rows count option options x_row y_row", f8="first last grid jitter x y low high")
 MEASURES = _columns(i8="kind thing things over ring row", f8="beyond")
@@ -156,7 +157,7 @@ class Tables(Block):
     numbers: Annotated[Array, table(F8)]  # of the sensors whose kinds say `numbers`
     measured: Annotated[Array, table(bool)]  # [graph.width]: which readings anybody writes
     skills: Annotated[Array, table(SKILL)]
-    inputs: Annotated[Array, table(I8)]  # rows of readings, skill after skill
+    inputs: Annotated[Array, table(I8)]  # rows of readings, skill after skill, and scopes, edge after edge
     edges: Annotated[Array, table(EDGE)]
     codes: Annotated[Array, table(CODE)]
     weights: Annotated[Array, table(F4)]  # of the skills that do not learn

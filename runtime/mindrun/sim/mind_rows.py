@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph.graph import Edge, Graph, Program, Skill
+from mindrun.graph.scopes import Scopes, influence_scopes
 from mindrun.graph.weights import NO_WEIGHTS, genes, weights_of
 from mindrun.kinds.registry import names
 from mindrun.numbers.stack_machine import COMMAND, NEGATE, NUMBER, OPERATIONS
@@ -63,11 +64,10 @@ def skill_rows(
     """
     lengths = {skill.owner: genes(skill) for skill in reached}
     starts = dict(zip(learners, np.cumsum([0, *(lengths.get(name, 0) for name in learners)]), strict=False))
-    numbers = graph.skill_numbers
+    numbers, scopes = graph.skill_numbers, influence_scopes(graph)
     rows, edges, inputs = list[Row](), list[Row](), list[int]()
     shared, places = _shared_weights([skill for skill in reached if skill.owner not in starts], weights)
-    most_inputs = scratch = 1
-    state = 0
+    most_inputs, scratch, state = 1, 1, 0
     for skill in reached:
         function, count, outputs = skill.function, len(skill.inputs), skill.outputs
         own, remembered = skill.owner in starts, function.state_length(count, outputs)
@@ -76,17 +76,19 @@ def skill_rows(
             "input": len(inputs), "inputs": count, "outputs": outputs,
             "weights": int(starts[skill.owner]) if own else places[skill.owner], "own": own,
             "edge": len(edges), "edges": len(skill.edges), "address": addresses.get(skill.name, 0), "state": state,
-            **function.row(count, outputs),
+            "chooses": skill.chooses, **function.row(count, outputs),
         }  # fmt: skip
         rows.append(row)
         inputs.extend(skill.inputs)
-        edges.extend(_edge(graph, edge, codes) for edge in skill.edges)
+        for edge in skill.edges:
+            row, further = _scopes(edge, scopes, len(numbers))
+            edges.append({**_edge(graph, edge, codes), **row, "scoped": len(inputs)})
+            inputs.extend(further)
         most_inputs = max(most_inputs, count + remembered)
         scratch = max(scratch, function.scratch(count, outputs))
         state += remembered
-    all_inputs = np.array(inputs, np.int64)
-    tables = {"skills": records(rows, SKILL), "edges": records(edges, EDGE), "inputs": all_inputs, "weights": shared}
-    return tables, {"inputs": most_inputs, "scratch": scratch, "recurrent": state}
+    tables = {"skills": records(rows, SKILL), "edges": records(edges, EDGE), "inputs": np.array(inputs, np.int64)}
+    return {**tables, "weights": shared}, {"inputs": most_inputs, "scratch": scratch, "recurrent": state}
 
 
 def _shared_weights(skills: Sequence[Skill], weights: Mapping[str, Floats]) -> tuple[Floats, dict[str, int]]:
@@ -97,6 +99,13 @@ def _shared_weights(skills: Sequence[Skill], weights: Mapping[str, Floats]) -> t
     each = [weights_of(skill, weights) for skill in first.values()]
     begins = np.cumsum([0, *map(len, each)]).tolist()
     return np.concatenate([NO_WEIGHTS, *each]), dict(zip(first, begins, strict=False))
+
+
+def _scopes(edge: Edge, scopes: Scopes, skills: int) -> tuple[Row, list[int]]:
+    """The scope that weighs a command, and those in which influence counts, too, all as rows of `mind.scoped`."""
+    further = [(number - 1) * skills for number in scopes.counting(edge) if number and edge.to == "skill"]
+    scope = max(-1, (scopes.of.get((edge.to, edge.target), 0) - 1) * skills)
+    return {"scope": scope, "scopes": len(further)}, further
 
 
 def _edge(graph: Graph, edge: Edge, codes: Programs) -> Row:

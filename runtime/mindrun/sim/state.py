@@ -115,6 +115,7 @@ class MindState(Block):
     genome: Annotated[Array, rows("genome", kind=F4)]  # of the learner
     recurrent: Annotated[Array, rows("recurrent", kind=F4)]  # what skills remember
     influence: Annotated[Array, rows("skills", kind=F4)]
+    scoped: Annotated[Array, rows("scoped", kind=F4)]  # that of all skills in each scope but the first
     command_sums: Annotated[Array, rows("sinks", kind=F4)]  # of the commands times the influence behind them
     influence_sums: Annotated[Array, rows("sinks", kind=F4)]  # of this influence
     commands: Annotated[Array, rows("actuators", kind=F4)]  # as they act
@@ -130,6 +131,8 @@ class MindState(Block):
     other: Annotated[Array, each(F4)]  # what it sends otherwise
     gated: Annotated[Array, each(F4)]  # which of the two it sends
     sent: Annotated[Array, each(F4)]  # the values of an edge, −1 where nothing is sent
+    chosen: Annotated[Array, each()]  # the edge that a skill chooses, −1 for none
+    greatest: Annotated[Array, each(F4)]  # its value
 
 
 @dataclass(frozen=True)

@@ -173,11 +173,12 @@ def loose_rows(task: Task, dt: float, parameters: Parameters) -> Array:
     return records(rows, codes.LOOSE)
 
 
-def walker_rows(task: Task, dt: float) -> dict[str, Array]:
+def walker_rows(task: Task, dt: float, parameters: Parameters) -> dict[str, Array]:
     """Rows of WALKING, in the order of the things that they are rows of, and their ways with their corners.
 
     A direction that drifts by up to √(3·dt)·turning either way in each tick has drifted by `turning` in a second, in
-    the root of the mean square. The second of several on one way begins at its second place.
+    the root of the mean square. The second of several on one way begins at its second place. The `aim` is 1 of what
+    seeks, −1 of what flees: the nearest of `afters` things from the thing `after` on, or the robot with none of them.
     """
     rows, ways = list[Row](), list[Row]()
     corners: list[tuple[float, float, int]] = []
@@ -185,11 +186,15 @@ def walker_rows(task: Task, dt: float) -> dict[str, Array]:
     for i, thing in enumerate(things_of(task)):
         kind: Any = thing.kind
         if kind.walks:
-            row = {"thing": i, "step": kind.speed * dt, "turn": kind.turning * np.sqrt(3 * dt)}
-            way = {"way": len(ways), "ways": len(kind.ways), "copy": i - places[thing.name].start}
-            rows.append(
-                {**row, **way, "is_anywhere": kind.from_ == ANYWHERE, "is_drawn": bool(kind.ways) and not kind.places}
-            )
+            after = places.get(kind.thing, NOWHERE)
+            rows.append({
+                "thing": i, "way": len(ways), "ways": len(kind.ways), "copy": i - places[thing.name].start,
+                "is_anywhere": kind.from_ == ANYWHERE, "is_drawn": bool(kind.ways) and not kind.places,
+                "aim": bool(kind.seeks) - bool(kind.flees), "range": kind.range,
+                "after": after.start, "afters": len(after),
+                "step": parameters.row("thing", thing.name, "speed", kind.speed, (TIMES, dt)),
+                "turn": parameters.row("thing", thing.name, "turning", kind.turning, (TIMES, float(np.sqrt(3 * dt)))),
+            })  # fmt: skip
             for along in kind.ways if i + 1 == places[thing.name].stop else ():
                 first, count = len(corners), len(along)
                 ways.append({"first": first, "places": count})

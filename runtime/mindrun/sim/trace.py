@@ -325,6 +325,8 @@ def _think(rollout: Rollout, tile: Tile, jobs: Jobs, replaced: Mapping[int, floa
     skills, begin = rollout.tables.skills["index"], 0
     for row in [i for i, index in enumerate(skills) if int(index) in replaced]:
         rollout.think(tile, jobs, begin, row)
-        tile.state.mind.influence[skills[row], 0] = replaced[int(skills[row])]
+        mind, value = tile.state.mind, replaced[int(skills[row])]
+        mind.influence[skills[row], 0] = value
+        mind.scoped[skills[row] :: len(mind.influence), 0] = value
         begin = row
     rollout.think(tile, jobs, begin, len(skills))

@@ -1,11 +1,11 @@
 """Solid squares that stand in the way."""
 
 from collections.abc import Iterable
-from dataclasses import field, replace
+from dataclasses import replace
 from itertools import product
 from typing import Annotated
 
-from mindrun.kinds.registry import LATER, kind
+from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import (
     DEFAULT_DISTANCE,
@@ -37,7 +37,7 @@ class Obstacle(ThingKind):
     count: Annotated[int, COUNT] = 0
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
     at: Annotated[tuple[Place, ...], COORDINATE] = ()
-    or_: Annotated[Alternatives, COORDINATE] = field(default=(), metadata=LATER)
+    or_: Annotated[Alternatives, COORDINATE] = left_out(())
 
     unplaceable = "Write a count of as many as the map draws, and neither a place nor a grid."
     is_obstacle = True

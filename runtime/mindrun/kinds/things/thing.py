@@ -1,12 +1,12 @@
 """What the rest of the program asks of a thing, of which it knows no kind by name; and the kinds that are short."""
 
 from collections.abc import Iterable, Mapping, Set
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from math import hypot, inf
 from typing import Annotated, Literal, NamedTuple, Protocol, get_args
 
 from mindrun.kinds.bodies.body import DAMPING, DENSITY
-from mindrun.kinds.registry import LATER, arguments, base, kind
+from mindrun.kinds.registry import arguments, base, kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.numbers.quantity import (
     COORDINATE,
@@ -22,6 +22,7 @@ from mindrun.numbers.quantity import (
     Span,
 )
 
+ROBOT = "robot"  # the name by which a thing means the robot
 DEFAULT_SIZE = Span(1.0, 1.0)
 DEFAULT_DISTANCE = UNSAID  # as far away as its scene says
 
@@ -275,8 +276,8 @@ class Placed(ThingKind):
     size: Annotated[Span, LENGTH] = DEFAULT_SIZE
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
     at: Annotated[tuple[Place, ...], COORDINATE] = ()
-    or_: Annotated[Alternatives, COORDINATE] = field(default=(), metadata=LATER)
-    within: Annotated[Region, THING] = field(default="", metadata=LATER)
+    or_: Annotated[Alternatives, COORDINATE] = left_out(())
+    within: Annotated[Region, THING] = left_out("")
     count: Annotated[int, COUNT] = 1
     reached: Annotated[Outcome, OUTCOME] = STAYS
 
@@ -295,8 +296,8 @@ class Loose(ThingKind):
     damping: Annotated[float, DAMPING] = 5.0
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
     at: Annotated[tuple[Place, ...], COORDINATE] = ()
-    or_: Annotated[Alternatives, COORDINATE] = field(default=(), metadata=LATER)
-    within: Annotated[Region, THING] = field(default="", metadata=LATER)
+    or_: Annotated[Alternatives, COORDINATE] = left_out(())
+    within: Annotated[Region, THING] = left_out("")
     count: Annotated[int, COUNT] = 1
     reached: Annotated[Outcome, OUTCOME] = STAYS
     delivered: Annotated[Outcome, OUTCOME] = MOVES

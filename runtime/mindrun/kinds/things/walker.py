@@ -1,26 +1,29 @@
 """A thing that moves by itself."""
 
-from dataclasses import field, replace
+from dataclasses import replace
 from itertools import pairwise
 from math import pi
 from typing import Annotated, Literal, get_args
 
-from mindrun.kinds.registry import LATER, kind
+from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import (
     DEFAULT_DISTANCE,
     DEFAULT_SIZE,
     OUTCOME,
     STAYS,
+    AboutThing,
     Alternatives,
     Outcome,
     ThingKind,
     ThingMistake,
-)
+)  # fmt: skip
 from mindrun.numbers.quantity import (
     ANGLE,
     COORDINATE,
     COUNT,
+    DISTANCE,
+    FARTHEST_UNITS,
     LENGTH,
     POSITIVE,
     THING,
@@ -40,13 +43,16 @@ BEGIN = Reference("beginning", get_args(Begin))
 
 
 @kind("content", "walker")
-class Walker(ThingKind):
+class Walker(ThingKind, AboutThing):
     """A disc of diameter `size` on the floor that moves at `speed`, in units per second, and touches nothing.
 
     It wanders: its direction drifts by about `turning` in a second, and where its next step would meet a wall or an
     obstacle it stands for that tick and faces anywhere. Or it goes `along` places, from the last of them to the first
     again, in straight lines through whatever is there; with `or` on one of several ways, which is drawn for each, and
     `from anywhere` on its way instead of its first place. It is reached when it is caught: in the claw's reach.
+
+    One that `seeks` or `flees` the robot, or the nearest thing of a name, goes straight towards it or away from it,
+    from middle to middle. Where none is within its `range`, or something is in its way, it wanders.
     """
 
     size: Annotated[Span, LENGTH] = DEFAULT_SIZE
@@ -55,14 +61,23 @@ class Walker(ThingKind):
     along: Annotated[tuple[Place, ...], COORDINATE] = ()
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
     at: Annotated[tuple[Place, ...], COORDINATE] = ()
-    or_: Annotated[Alternatives, COORDINATE] = field(default=(), metadata=LATER)
-    from_: Annotated[Begin, BEGIN] = field(default=START, metadata=LATER)
-    within: Annotated[Region, THING] = field(default="", metadata=LATER)
+    or_: Annotated[Alternatives, COORDINATE] = left_out(())
+    from_: Annotated[Begin, BEGIN] = left_out(START)
+    within: Annotated[Region, THING] = left_out("")
     count: Annotated[int, COUNT] = 1
     reached: Annotated[Outcome, OUTCOME] = STAYS
+    seeks: Annotated[str, THING] = left_out("")
+    flees: Annotated[str, THING] = left_out("")
+    range: Annotated[float, DISTANCE] = left_out(FARTHEST_UNITS)
 
+    varying = ("speed", "turning")
     is_round = True
     walks = True
+
+    @property
+    def thing(self) -> str:
+        """The name of what it seeks or flees; empty where it does neither."""
+        return self.seeks or self.flees
 
     @property
     def places(self) -> tuple[Place, ...]:
@@ -90,7 +105,18 @@ class Walker(ThingKind):
         return not self.along
 
     def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
-        """An error where its way goes nowhere or leaves the arena, or has too few places for all to begin at."""
+        """An error where its way goes nowhere or leaves the arena, or has too few places for all to begin at.
+
+        Or where it has two aims, or a distance without one.
+        """
+        if len([each for each in (self.along, self.seeks, self.flees) if each]) > 1:
+            hint = "Leave all but one of along, seeks and flees out."
+            return ThingMistake("two-aims", "It can go one way at a time.", hint)
+        if self.range != FARTHEST_UNITS and not self.thing:
+            hint = "Write seeks or flees, and of what: flees robot range 10."
+            return ThingMistake(
+                "aimless-distance", "A distance says when it seeks or flees, and it does neither.", hint
+            )
         if not self.along:
             hint = "Write the places of its way: along 0 0 to 10 0 from anywhere."
             lost = ThingMistake("missing-argument", "What has no way begins nowhere on it.", hint)

@@ -210,19 +210,48 @@ def walk(tables: Tables, world: WorldState, lanes: int) -> None:
                 continue
             if tables.walkers[i].ways > 0:
                 go_along(tables, world, i, x, y, lane)
-            else:
+            elif tables.walkers[i].aim == 0 or not chase(tables, world, i, x, y, lane):
                 wander(tables, world, i, x, y, lane)
+
+
+def chase(tables, world, i, x, y, lane):
+    """Step straight towards the nearest that a walker seeks, or away from it; True if it could.
+
+    It does not come past what it seeks. False where that is too far away, or the step is not free.
+    """
+    walker = tables.walkers[i]
+    step, dx, dy, far = world.numbers[walker.step, lane], 0.0, 0.0, np.inf
+    if walker.afters == 0:
+        dx, dy = world.body[X, lane] - x, world.body[Y, lane] - y
+        far = np.sqrt(dx * dx + dy * dy)
+    for other in range(walker.after, walker.after + walker.afters):
+        its_x, its_y = place_of(world.things, other, lane)
+        away = np.sqrt((its_x - x) * (its_x - x) + (its_y - y) * (its_y - y))
+        if other != walker.thing and away < far:  # one that has vanished is no number away
+            dx, dy, far = its_x - x, its_y - y, away
+    if not far <= walker.range:
+        return False
+    if far == 0.0:
+        return walker.aim > 0  # there already, or away from it in no direction
+    share = walker.aim * step / far
+    share = min(share, 1.0)
+    to_x, to_y, half = x + dx * share, y + dy * share, size_of(world.things, walker.thing, lane) / 2
+    if not may_step(tables, world, step, x, y, to_x, to_y, half, lane):
+        return False
+    put_thing(world.things, walker.thing, to_x, to_y, lane)
+    return True
 
 
 def wander(tables, world, i, x, y, lane):
     """Step ahead, and let the direction drift; where that is not free, stand and face anywhere."""
     sine, cosine = sine_cosine(world.direction[i, lane])
     walker = tables.walkers[i]
-    step, half = walker.step, size_of(world.things, walker.thing, lane) / 2
+    step, half = world.numbers[walker.step, lane], size_of(world.things, walker.thing, lane) / 2
     to_x, to_y = x + cosine * step, y + sine * step
     if may_step(tables, world, step, x, y, to_x, to_y, half, lane):
         put_thing(world.things, walker.thing, to_x, to_y, lane)
-        world.direction[i, lane] += uniform(world.random, lane, -walker.turn, walker.turn)
+        turn = world.numbers[walker.turn, lane]
+        world.direction[i, lane] += uniform(world.random, lane, -turn, turn)
     else:
         world.direction[i, lane] = uniform(world.random, lane, 0.0, 2 * np.pi)
 
@@ -243,12 +272,13 @@ def may_step(tables, world, step, x, y, to_x, to_y, half, lane):
 def go_along(tables, world, i, x, y, lane):
     """Step towards the next place of its way; where it would come past that, stop there for this tick."""
     walker, goal = tables.walkers[i], world.goal[i, lane]
+    step = world.numbers[walker.step, lane]
     to_x, to_y = tables.corners[goal, X], tables.corners[goal, Y]
     dx, dy = to_x - x, to_y - y
     far = np.sqrt(dx * dx + dy * dy)
-    if far <= walker.step:
+    if far <= step:
         put_thing(world.things, walker.thing, to_x, to_y, lane)
         world.goal[i, lane] = int(tables.corners[goal, NEXT])
     else:
-        share = walker.step / far
+        share = step / far
         put_thing(world.things, walker.thing, x + dx * share, y + dy * share, lane)

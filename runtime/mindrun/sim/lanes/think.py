@@ -5,7 +5,7 @@ from mindrun.numbers.stack_machine import evaluate
 from mindrun.sim.codes import Tables
 from mindrun.sim.kind_lanes import compute
 from mindrun.sim.procedures import call_procedure
-from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, State
+from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, MindState, State
 from mindrun.sim.units import unit, unit_where
 
 NOT_SENT = F(-1)
@@ -17,6 +17,10 @@ def begin(tables, mind, lanes):
     mind.command_sums[:, :lanes] = ZERO
     mind.influence_sums[:, :lanes] = ZERO
     mind.influence[tables.world[0].master, :lanes] = ONE
+    if len(mind.scoped) > 1:
+        mind.scoped[:, :lanes] = ZERO
+        for row in range(tables.world[0].master, len(mind.scoped), len(mind.influence)):
+            mind.scoped[row, :lanes] = ONE
 
 
 @unit
@@ -86,20 +90,22 @@ def send(tables: Tables, state: State, row: int, out: int, count: int, lanes: in
     """Send every edge's value, times the skill's influence, to its target; a value that is not finite is not sent."""
     skill, mind, everywhere = tables.skills[row], state.mind, count == lanes
     influence = mind.influence[skill.index]
+    if skill.chooses > 0:
+        choose(tables, state, row, out, count, everywhere)
     for e in range(skill.edge, skill.edge + skill.edges):
         edge, sent = tables.edges[e], mind.sent
-        if edge.output >= 0:
-            values = mind.hidden[out + edge.output]
-        else:
-            values = mind.values
-            value(tables, state, edge.code, edge.length, values, count, everywhere)
-        if edge.whens > 0:
-            gate(tables, state, out, e, count, everywhere)
-            values = mind.gated
+        evaluate_edge(tables, state, out, e, count, everywhere)
+        values = mind.hidden[out + edge.output] if edge.output >= 0 else mind.values
+        values = mind.gated if edge.whens > 0 else values
         check(values, mind.sound, sent, mind.active, state.run.faults, influence, count)
         if edge.whens > 0 and edge.others == 0:
             for k in range(count):  # nothing is sent where a condition does not hold, and that is no fault
                 sent[k] = NOT_SENT if mind.opened[k] == ZERO and mind.sound[k] == ZERO else sent[k]
+        for k in range(count if skill.chooses > 0 and edge.to_skill else 0):
+            if sent[k] >= ZERO:
+                sent[k] = ONE if mind.chosen[k] == e else ZERO
+        if edge.scopes > 0:
+            spread_scoped(tables, mind, row, e, count)
         for k in range(count if edge.cuts > ZERO else 0):
             if sent[k] >= ZERO:  # nothing is sent where the influence that arrives would be smaller than the least
                 sent[k] = NOT_SENT if sent[k] * influence[mind.active[k]] < edge.cuts else sent[k]
@@ -108,10 +114,53 @@ def send(tables: Tables, state: State, row: int, out: int, count: int, lanes: in
         if edge.to_skill:
             spread(sent, influence, mind.influence[edge.target], lanes)
         else:
-            spread(sent, influence, mind.command_sums[edge.target], lanes)
+            behind = mind.scoped[edge.scope + skill.index] if edge.scope >= 0 else influence
+            spread(sent, behind, mind.command_sums[edge.target], lanes)
             for lane in range(lanes):  # now the influence behind each command (Eq. 3)
                 sent[lane] = ONE if sent[lane] >= ZERO else NOT_SENT
-            spread(sent, influence, mind.influence_sums[edge.target], lanes)
+            spread(sent, behind, mind.influence_sums[edge.target], lanes)
+
+
+def evaluate_edge(tables, state, out, e, count, everywhere):
+    """Write the values of edge e, where they are not outputs of the function, to `values`, or behind `when` `gated`."""
+    edge = tables.edges[e]
+    if edge.output < 0:
+        value(tables, state, edge.code, edge.length, state.mind.values, count, everywhere)
+    if edge.whens > 0:
+        gate(tables, state, out, e, count, everywhere)
+
+
+@unit_where(lambda tables: (tables.skills["chooses"] > 0).any())
+def choose(tables: Tables, state: State, row: int, out: int, count: int, everywhere: int) -> None:
+    """Find the influence of a skill that is greatest before the clamp, of equals the first, among those that are sent.
+
+    Lane by lane: its edge in `chosen`, −1 where none is sent.
+    """
+    skill, mind = tables.skills[row], state.mind
+    mind.chosen[:count] = -1
+    for e in range(skill.edge, skill.edge + skill.edges):
+        edge = tables.edges[e]
+        if edge.to_skill:
+            evaluate_edge(tables, state, out, e, count, everywhere)
+            values = mind.hidden[out + edge.output] if edge.output >= 0 else mind.values
+            values, closes = mind.gated if edge.whens > 0 else values, edge.whens > 0 and edge.others == 0
+            for k in range(count):
+                can_be = finite(values[k]) and not (closes and mind.opened[k] == ZERO)
+                if can_be and (mind.chosen[k] < 0 or values[k] > mind.greatest[k]):
+                    mind.chosen[k], mind.greatest[k] = e, values[k]
+
+
+@unit_where(lambda tables: (tables.edges["scopes"] > 0).any())
+def spread_scoped(tables: Tables, mind: MindState, row: int, e: int, count: int) -> None:
+    """Add value times influence (Eq. 2) in the further scopes in which edge e counts, where it is not cut there."""
+    skill, edge = tables.skills[row], tables.edges[e]
+    for scope in tables.inputs[edge.scoped : edge.scoped + edge.scopes]:
+        behind, target = mind.scoped[scope + skill.index], mind.scoped[scope + edge.target]
+        for k in range(count):
+            lane = mind.active[k]
+            sent = mind.sent[k] * behind[lane]
+            if mind.sent[k] >= ZERO and not sent < edge.cuts:
+                target[lane] += sent
 
 
 def widen(sent, wide, active, count, lanes):
