@@ -7,7 +7,7 @@ from typing import Any
 
 from mindrun.kinds.registry import Argument as Parameter
 from mindrun.kinds.registry import arguments, find_kind, kinds
-from mindrun.kinds.things.thing import ROBOT, AboutThing
+from mindrun.kinds.things.thing import ROBOT, WITHIN, AboutThing
 from mindrun.numbers.quantity import COORDINATE, SLOT, Quantity, Reference
 
 from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed
@@ -160,7 +160,7 @@ def about(noun: str, kind: str, argument: str = "of") -> Set[str]:
 def _check_thing(name: Name, noun: str, kind: str, key: str, scope: Scope, findings: Findings) -> None:
     if scope.things is None:
         return
-    if noun == "content" and name.text == ROBOT:
+    if noun == "content" and key != WITHIN and name.text == ROBOT:
         if ROBOT in scope.things:
             hint = "Give the thing another name."
             findings.error("unfit-thing", name.span, f"{key} robot means the robot, and no thing of that name.", hint)
@@ -173,6 +173,6 @@ def _check_thing(name: Name, noun: str, kind: str, key: str, scope: Scope, findi
     cls, there = find_kind(noun, kind) or AboutThing, [find_kind("content", each) for each in scope.things[name.text]]
     if all(there) and not any(cls.accepts(key, thing) for thing in there if thing):
         is_ = listed(a(kind) for kind in sorted(scope.things[name.text]))
-        about_ = "within" if noun == "content" else "about"
+        about_ = WITHIN if key == WITHIN else "about"
         hint = f"{name.text} is {is_}; {kind} is {about_} {listed(a(each) for each in sorted(about(noun, kind, key)))}."
         findings.error("unfit-thing", name.span, f"{kind} cannot be {about_} {name.text}.", hint)

@@ -23,6 +23,7 @@ from mindrun.numbers.quantity import (
 )
 
 ROBOT = "robot"  # the name by which a thing means the robot
+WITHIN = "within"  # the argument of a thing that names the zone in which it is placed
 DEFAULT_SIZE = Span(1.0, 1.0)
 DEFAULT_DISTANCE = UNSAID  # as far away as its scene says
 
@@ -253,7 +254,7 @@ class ThingKind:
     @staticmethod
     def accepts(argument: str, kind: "type[ThingKind]") -> bool:
         """True if an argument of it can name things of a kind: it can be within what lies on the floor."""
-        return kind.is_area
+        return kind.is_area if argument == WITHIN else not kind.is_obstacle
 
     def _distance_mistake(self, scene: SceneKind | None) -> ThingMistake | None:
         """An error where a distance has a schedule, or no two places of the scene are so far apart."""
