@@ -24,7 +24,7 @@ from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.kinds.things.thing import Item, LooseBox, Power, Zone
 from mindrun.numbers.arithmetic import in_claw
 from mindrun.numbers.quantity import Span
-from mindrun.sim.lanes.placement import uniform
+from mindrun.sim.lanes.random_numbers import uniform
 from mindrun.sim.lanes.step import CONTACT_TICKS
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace

@@ -17,7 +17,7 @@ from mindrun.numbers.arithmetic import (
     size_of,
 )
 from mindrun.sim.codes import GRIPPER, ITEM, Tables
-from mindrun.sim.lanes.placement import uniform
+from mindrun.sim.lanes.random_numbers import uniform
 from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred, is_blocked, is_walled
 from mindrun.sim.state import State
 from mindrun.sim.units import unit, unit_where

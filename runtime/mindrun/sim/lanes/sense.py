@@ -33,7 +33,7 @@ from mindrun.numbers.arithmetic import (
 )
 from mindrun.sim.codes import AWAY, Tables
 from mindrun.sim.kind_lanes import read
-from mindrun.sim.lanes.placement import uniform
+from mindrun.sim.lanes.random_numbers import uniform
 from mindrun.sim.lanes.solid import put_box
 from mindrun.sim.state import (
     FIRST_RAY,
