@@ -56,6 +56,14 @@ def test_walkers_are_where_plain_arithmetic_has_them(seed: int) -> None:
     assert happened["Reach"] > 0
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_drawn_ways_are_gone_as_plain_arithmetic_has_it(seed: int) -> None:
+    way = "along -8 0 to 8 0 to 8 9 or -8 -6 to 8 -6"
+    text = MIND.replace("along -8 0 to 8 0 to 8 9", way + (" from anywhere" if seed else ""))
+    rollout = world(800, text=text)
+    follow(rollout, Engine(Policy(rollout.graph, {})), seed)
+
+
 def test_who_wanders_stays_among_walls_and_comes_about() -> None:
     """None ever overlaps the border or a rock, and each has been in all quarters of the arena."""
     rollout = world(20_000)

@@ -13,7 +13,7 @@ from mindlang.compiler.resolve.parts import said_once
 from mindlang.compiler.resolve.quantities import convert, value_list
 from mindlang.compiler.syntax import Amount, Argument, Declaration, Draws, Either, Name, Numbers, Phrase, Range, of_form
 
-AXES = 2
+PLACE_NUMBERS = 2
 Signed = tuple[int, int]  # which number is x, and which y: counted from 1, below 0 where it is negated, 0 for none
 
 
@@ -65,7 +65,11 @@ def at_drawn(phrase: Phrase, draws: Mapping[str, Draw], findings: Findings) -> t
     numbers = {name: place for place, name in enumerate(draws, 1)}
     for place, argument in enumerate(phrase.arguments):
         amounts = argument.value.amounts if isinstance(argument.value, Numbers) else ()
-        if argument.key.text != "at" or len(amounts) != AXES or not any(each.name in draws for each in amounts):
+        if (
+            argument.key.text != "at"
+            or len(amounts) != PLACE_NUMBERS
+            or not any(each.name in draws for each in amounts)
+        ):
             continue
         signs = [int(each.number) * numbers.get(each.name, 0) for each in amounts]
         first, *others = (Numbers(both, argument.value.span) for both in product(*(_ends(a, draws) for a in amounts)))

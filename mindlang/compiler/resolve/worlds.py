@@ -127,7 +127,7 @@ def _things(
             obstacles += min(kind.obstacles(scene), MAX_OBSTACLES)  # as if there were few where there are too many
         found.setdefault(name, Thing(name, kind, fact.name.span, when=_presence(fact, draws, scope, findings), by=by))
     for thing in (each for each in found.values() if each.kind and isinstance(each.kind.within, str)):
-        zone = found.get(thing.kind.within)
+        zone = found.get(str(thing.kind.within))
         if zone and zone.kind and zone.kind.within:
             message = f"{zone.name} is itself within something."
             hint = f"Write another zone, or a place for {zone.name}."

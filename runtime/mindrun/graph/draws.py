@@ -3,9 +3,9 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-GOLDEN, MIX_1, MIX_2 = 0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB  # SplitMix64
+GOLDEN_STEP, MIX_1, MIX_2 = 0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB  # SplitMix64
 BEFORE_THE_WORLD = 0xA0761D6478BD642F  # what the seed is joined with: the world itself is drawn from the seed
-WORD = (1 << 64) - 1
+WORD_MASK = (1 << 64) - 1
 MAX_VALUES = 1000
 MAX_PLACES = 16  # of one thing that are looked at one by one, before it is only the least and the greatest
 
@@ -34,9 +34,9 @@ def drawn_numbers(draws: Sequence[Draw], seed: int) -> Mapping[str, float]:
     """The number of each draw in the run of a seed, by its name: the same bits as in the lanes."""
     state, found = seed ^ BEFORE_THE_WORLD, dict[str, float]()
     for draw in draws:
-        state = (state + GOLDEN) & WORD
-        mixed = ((state ^ (state >> 30)) * MIX_1) & WORD
-        mixed = ((mixed ^ (mixed >> 27)) * MIX_2) & WORD
+        state = (state + GOLDEN_STEP) & WORD_MASK
+        mixed = ((state ^ (state >> 30)) * MIX_1) & WORD_MASK
+        mixed = ((mixed ^ (mixed >> 27)) * MIX_2) & WORD_MASK
         share = float((mixed ^ (mixed >> 31)) >> 11) * 2.0**-53
         low, high = (draw.values[0], draw.values[1]) if draw.is_range else (0.0, float(len(draw.values)))
         number = low + (high - low) * share

@@ -1,4 +1,4 @@
-"""Places drawn at random, of obstacles, robots and things that appear and reappear; and the numbers that vary.
+"""Places drawn at random, of obstacles, robots and things that appear and reappear.
 
 Every world has its own generator (SplitMix64), seeded by the layout alone, so that all genomes of a generation meet
 the same world. Everything is placed clear of everything else, with room for the robot between.
@@ -6,7 +6,6 @@ the same world. Everything is placed clear of everything else, with room for the
 
 import numpy as np
 
-from mindrun.graph import draws
 from mindrun.graph.beginning import meets_robot
 from mindrun.numbers.arithmetic import (
     ANGLE,
@@ -24,14 +23,12 @@ from mindrun.numbers.arithmetic import (
     size_of,
     uniform,
 )
-from mindrun.sim.codes import BETWEEN, CHOSEN, CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, FAR, Tables
+from mindrun.sim.codes import FAR, Tables
 from mindrun.sim.lanes.solid import is_clear, put_box
-from mindrun.sim.parameter_rows import computed
 from mindrun.sim.state import WorldState
 from mindrun.sim.units import unit
 
-BEFORE_THE_WORLD = np.uint64(draws.BEFORE_THE_WORLD)
-NEXT = 2  # the column of a corner that says which one comes after it
+NEXT_COLUMN = 2  # of a corner: the number of the one after it
 MAX_TRIES = 1000
 ENDLESS_UNITS = 1e300  # half the side of what is no arena is infinite, above this
 
@@ -137,7 +134,7 @@ def set_out(tables, world, i, lane):
         while corner < first + places - 1 and far > stretch(tables.corners, corner):
             far -= stretch(tables.corners, corner)
             corner += 1
-    goal = int(tables.corners[corner, NEXT])
+    goal = int(tables.corners[corner, NEXT_COLUMN])
     world.goal[i, lane] = goal
     x, y = tables.corners[corner, X], tables.corners[corner, Y]
     if far > 0.0:
@@ -148,7 +145,7 @@ def set_out(tables, world, i, lane):
 
 def stretch(corners, corner):
     """The length of a way from a corner to the next one."""
-    goal = int(corners[corner, NEXT])
+    goal = int(corners[corner, NEXT_COLUMN])
     dx, dy = corners[goal, X] - corners[corner, X], corners[goal, Y] - corners[corner, Y]
     return np.sqrt(dx * dx + dy * dy)
 
@@ -367,41 +364,3 @@ def stands_on(tables, i, size, dx, dy):
     thing, constants = tables.things[i], tables.world[0]
     is_area, is_round, is_goal = thing.is_area == 1, thing.is_round == 1, thing.is_goal == 1
     return meets_robot(is_area, is_round, is_goal, size, dx, dy, constants.radius, constants.front + constants.claw)
-
-
-def draw_numbers(tables, world, seed, lane):
-    """Draw the numbers of a lane that its task draws, before its world, and from the seed alone: they move nothing."""
-    world.random_aside[lane] = seed ^ BEFORE_THE_WORLD
-    for i in range(len(tables.parameters)):
-        row = tables.parameters[i]
-        if row.form == BETWEEN:
-            world.numbers[i, lane] = uniform(world.random_aside, lane, row.low, row.high)
-        elif row.form == CHOSEN:
-            chosen = min(int(uniform(world.random_aside, lane, 0.0, row.high)), int(row.high) - 1)
-            world.numbers[i, lane] = tables.choices[row.of + chosen]
-
-
-def set_numbers(tables, world, lane):
-    """Draw the numbers of a lane that vary, after its world: it is the same world whatever varies in it."""
-    numbers, random = world.numbers, world.random
-    for i in range(len(tables.parameters)):
-        row = tables.parameters[i]
-        if row.form == CONSTANT:
-            numbers[i, lane] = row.low
-        elif row.form == DRAWN:
-            numbers[i, lane] = uniform(random, lane, row.low, row.high)
-        elif row.form == DRAWN_WHOLE:
-            numbers[i, lane] = min(np.floor(uniform(random, lane, row.low, row.high + 1.0)), row.high)
-        elif row.form == FAILING:
-            numbers[i, lane] = fails_at(uniform(random, lane, 0.0, 1.0), row.low, tables.world[0].ticks)
-        elif row.form != CHOSEN and row.form != BETWEEN:  # which are drawn already
-            numbers[i, lane] = computed(row.form, numbers[row.of, lane], row.low)
-
-
-def fails_at(chance, keep, ticks):
-    """The tick in which something fails that lasts through each with a probability of `keep`; `chance` is in 0..1."""
-    tick, left = 0, keep
-    while left > chance and tick < ticks:
-        left *= keep
-        tick += 1
-    return tick

@@ -26,7 +26,7 @@ from mindrun.numbers.arithmetic import (
 from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PERSISTENCE_TICKS, PUSH, STEERING, TORQUE, Tables
 from mindrun.sim.lanes.act import carry
 from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_down
-from mindrun.sim.lanes.placement import NEXT
+from mindrun.sim.lanes.placement import NEXT_COLUMN
 from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
 from mindrun.sim.lanes.solid import CLOSED_UNITS, find_swift, is_barred, is_free, within
 from mindrun.sim.lanes.strides import make_tick
@@ -278,7 +278,7 @@ def go_along(tables, world, i, x, y, lane):
     far = np.sqrt(dx * dx + dy * dy)
     if far <= step:
         put_thing(world.things, walker.thing, to_x, to_y, lane)
-        world.goal[i, lane] = int(tables.corners[goal, NEXT])
+        world.goal[i, lane] = int(tables.corners[goal, NEXT_COLUMN])
     else:
         share = step / far
         put_thing(world.things, walker.thing, x + dx * share, y + dy * share, lane)
