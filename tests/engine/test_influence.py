@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from mindrun.engine.engine import Engine
 from mindrun.errors import MindError, ReadingsError, WeightsError
-from mindrun.graph.graph import Edge, Sensor
+from mindrun.graph.graph import Edge, Gate, Sensor
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
 from mindrun.kinds.functions.mlp import Mlp
@@ -44,6 +44,51 @@ def test_a_shared_skill_adds_up_its_influence() -> None:
     engine = Engine(Policy(mind(top, left, right, rule("Go", always("actuator", 0, 1.0))), {}))
     assert engine.tick([0.0])[0] == np.float32(0.75) / np.float32(1.25)
     assert engine.influence.tolist() == [1.0, 0.5, 0.25, 0.75]
+
+
+@pytest.mark.parametrize(
+    ("values", "chosen"),
+    [
+        ((0.2, 0.3, 0.1), 1),
+        ((1.3, 1.7, 0.0), 1),  # before the clamp
+        ((-2.0, -1.0, -3.0), 1),
+        ((0.5, 0.5, 0.5), 0),  # of equals the first
+        ((np.inf, 0.5, 0.1), 1),  # what is no number is not sent, and a fault
+    ],
+)
+def test_one_is_chosen(values: tuple[float, ...], chosen: int) -> None:
+    top = replace(rule("Top", *(always("skill", i + 1, v) for i, v in enumerate(values))), chooses=True)
+    below = [rule(name, always("actuator", 0, 0.25 * i)) for i, name in enumerate("ABC")]
+    engine = Engine(Policy(mind(top, *below), {}))
+    assert engine.tick([0.0])[0] == 0.25 * chosen
+    assert engine.influence.tolist() == [1.0, *(float(i == chosen) for i in range(3))]
+    assert engine.faults == sum(map(np.isinf, values))
+
+
+def test_what_is_not_sent_is_not_chosen() -> None:
+    """Gates that are closed and say nothing else; where all are, nobody acts."""
+    gate = Gate((("number", 0.0), ("number", 1.0), (">", 0)))
+    closed, open_ = replace(always("skill", 1, 1.0), gate=gate), always("skill", 2, 0.1)
+    for edges, influence in (
+        ((closed, open_), [1.0, 0.0, 1.0]),
+        ((closed, replace(open_, gate=gate)), [1.0, 0.0, 0.0]),
+    ):
+        top = replace(rule("Top", *edges), chooses=True)
+        below = [rule(name, always("actuator", 0, 1.0)) for name in "AB"]
+        engine = Engine(Policy(mind(top, *below), {}))
+        engine.tick([0.0])
+        assert (engine.influence.tolist(), engine.faults) == (influence, 0)
+
+
+def test_influence_over_an_actuator_counts_for_it_alone() -> None:
+    """On several levels, for the one that all of them name; a skill's own influence is all that it was sent."""
+    over_left = replace(always("skill", 1, 1.0), over=(("actuator", 0),))
+    over_both = replace(always("skill", 2, 1.0), over=STEER)
+    top = rule("Top", over_left, always("actuator", 0, 0.0), always("actuator", 1, 0.0))
+    stop = rule("Stop", always("actuator", 0, 1.0), always("actuator", 1, 1.0))
+    engine = Engine(Policy(mind(top, rule("Middle", over_both), stop), {}))
+    assert engine.tick([0.0]).tolist() == [0.5, 0.0]
+    assert engine.influence.tolist() == [1.0, 1.0, 1.0]
 
 
 def test_neutral_where_nothing_influences() -> None:

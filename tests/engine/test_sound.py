@@ -95,6 +95,9 @@ def sends(*edges: Edge) -> Callable[[Graph], Graph]:
     return with_skill(0, edges=edges)
 
 
+IN_ORDER = Edge("skill", 1, None, (("number", 1.0),), over=(("actuator", 0), ("actuator", 1)))
+
+
 def twin(**changes: object) -> Callable[[Graph], Graph]:
     """A third skill, which is like Go but for the changes."""
     return lambda g: replace(g, skills=(*g.skills, replace(g.skills[1], **({"name": "Twin", "like": "Go"} | changes))))
@@ -145,6 +148,10 @@ FLAWED: list[tuple[Callable[[Graph], Graph], str]] = [
     (sends(Edge("actuator", 0, None, ONE, Gate(ONE))), "skill Top has a condition that cannot be computed"),
     (sends(Edge("actuator", 0, None, ONE, cuts=0.1)), "skill Top cuts what cannot be cut"),
     (sends(Edge("skill", 1, None, ONE, cuts=1.5)), "skill Top cuts what cannot be cut"),
+    (sends(Edge("actuator", 0, None, ONE, over=(("actuator", 1),))), "skill Top has influence over what cannot be so"),
+    (sends(replace(IN_ORDER, over=IN_ORDER.over[::-1])), "skill Top has influence over what cannot be so"),
+    (sends(replace(IN_ORDER, over=(("actuator", 2),))), "skill Top has influence over what is not there"),
+    (with_skill(0, edges=(always("actuator", 0, 1.0),), chooses=True), "skill Top has nothing to choose"),
     (twin(function=Mlp(2)), "skill Twin has not the shape of Go, which it is like"),
     (twin(inputs=(0,)), "skill Twin has not the shape of Go, which it is like"),
     (twin(edges=()), "skill Twin has not the shape of Go, which it is like"),

@@ -233,12 +233,16 @@ def test_reordering_the_source_changes_no_bit(
 
 
 def _whole_sensors(graph: Graph) -> Graph:
-    """The graph with skills that read whole sensors, as the language has it, and at least one."""
+    """The graph with skills that read whole sensors, as the language has it, and at least one.
+
+    None chooses among values with `at`: of equals the first in the text is chosen, so there the order means something.
+    """
     spans = [tuple(range(s.start, s.start + s.width)) for s in graph.sensors] + [(m.start,) for m in graph.memories]
     skills = []
     for each in graph.skills:
         inputs = [i for span in spans if set(span) & set(each.inputs) for i in span]
-        skills.append(replace(each, inputs=tuple(inputs or spans[0])))
+        chooses = each.chooses and all(edge.output is not None for edge in each.edges if edge.to == "skill")
+        skills.append(replace(each, inputs=tuple(inputs or spans[0]), chooses=chooses))
     return replace(graph, skills=tuple(skills))
 
 

@@ -46,7 +46,7 @@ task World in arena size 30
 
 def world(ticks: int, outcome: str = "", text: str = MIND) -> Rollout:
     graph = compile_text(text.replace("TICKS", str(ticks)).replace("OUTCOME", outcome))
-    return Rollout(Policy(graph, {}), "World", "Hunt")
+    return Rollout(Policy(graph, {}), "World", graph.master)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -106,3 +106,32 @@ def test_a_direction_drifts_by_its_turning_in_a_second_whatever_the_tick() -> No
             turned = [moment.turned[1:4] for moment in trace(rollout, seed).moments]
             turns.append(turned[-1] - turned[0])
         assert np.sqrt(np.mean(np.square(turns))) == pytest.approx(np.radians(40), rel=0.12)
+
+
+CHASE = """
+tick 1/60 s
+master Rest
+body Robot is disc
+actuator left_wheel is wheel side left neutral 0.5
+actuator right_wheel is wheel side right neutral 0.5
+skill Rest is rule
+  drives left_wheel at 0.5
+task World in arena size 60
+  starts at 0 0
+  contains cat is walker size 1 speed 6 seeks robot at 12 5
+  contains mouse is walker size 1 speed 3 flees robot within 8 at 3 -4 reached vanishes
+  contains dog is walker size 1 speed 4 seeks mouse within 0.5 at -20 -20
+  lasts TICKS ticks
+"""
+
+
+def test_who_seeks_comes_straight_and_who_flees_stays_away() -> None:
+    """13 units at 0.1 a tick: the cat is there in tick 130, and stays. A mouse that is near goes away by 0.05."""
+    run = trace(world(2_000, text=CHASE), 1)
+    track = np.array([moment.things[:, :2] for moment in run.moments])
+    cat, mouse, dog = (np.linalg.norm(track[:, i], axis=1) for i in range(3))
+    assert cat[:129] == pytest.approx(13 - 0.1 * np.arange(1, 130))
+    assert (cat[130:] == 0).all()
+    assert mouse[:59] == pytest.approx(5 + 0.05 * np.arange(1, 60))
+    assert (mouse > 4.9).all()
+    assert np.ptp(dog) > 1, "nothing is within half a unit: it wanders"
