@@ -247,7 +247,10 @@ def virtual_kinds(
         name, more = draw(st.sampled_from(turning)), draw(st.sampled_from([-1.25, -0.5, 0.0, 0.1, 2.0]))
         terms = (("reading", name), ("number", more))
         return 1, Computed((*(terms[::-1] if more > 0 else terms), ("-" if more == 0.1 else "+", 0)))
-    numbered = draw(programs(tuple(range(len(single)))))
+    sides = programs(tuple(range(len(single))))
+    numbered = draw(sides)
+    if draw(st.integers(0, 2)) == 0:
+        numbered = (*numbered, *draw(conditions(sides)), ("when", 0), *draw(sides), ("otherwise", 0))
     return 1, Computed(tuple((word, single[int(x)] if word == "reading" else x) for word, x in numbered))
 
 

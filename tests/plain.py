@@ -216,6 +216,9 @@ def is_turned(formula, parts):
             stack.append(-stack.pop())
         else:
             b, a = stack.pop(), stack.pop()
+            if word == "when" or (word == "otherwise" and abs(a) == abs(b)):
+                stack.append(a)
+                continue
             stack.append(a + b if word == "+" else a - b if word == "-" else 0 if a == b == 0 else math.nan)
     return abs(stack[0]) == 1
 
@@ -266,6 +269,12 @@ def postfix(program, readings):
             stack.append(-stack.pop())
         else:
             b, a = stack.pop(), stack.pop()
+            if word == "when":  # None where the condition does not hold
+                stack.append(None if b == 0 else a if b == 1 else np.float64(np.nan))
+                continue
+            if word == "otherwise":
+                stack.append(b if a is None else a)
+                continue
             if word not in "+-*/" and (math.isnan(a) or math.isnan(b)):
                 stack.append(np.float64(np.nan))
                 continue

@@ -28,8 +28,9 @@ from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.model import source_graph
 from mindlang.lock.training_world import LessonKey, TrainingWorld
 
-PRECEDENCE = {"or": -2, "and": -1, **dict.fromkeys(TRUTHS[:4], 0), "+": 1, "-": 1, "*": 2, "/": 2}
-NEGATION_PRECEDENCE, EXTREME_PRECEDENCE, ATOM_PRECEDENCE = 3, 4, 5
+LOOSEST_FIRST = (("otherwise",), ("when",), ("or",), ("and",), TRUTHS[:4], ("+", "-"), ("*", "/"))
+PRECEDENCE = {word: place for place, words in enumerate(LOOSEST_FIRST) for word in words}
+NEGATION_PRECEDENCE, EXTREME_PRECEDENCE, ATOM_PRECEDENCE = 7, 8, 9
 
 UNSAID_VALUES: tuple[Any, ...] = ([], "", None, {"by": None, "first": UNSAID.first, "last": UNSAID.last})
 

@@ -87,6 +87,7 @@ SENSORS = {
     "level": [
         "sensor level is computed at 1 - charge",
         "sensor level is computed at least of charge moving",
+        "sensor level is computed at 1 - charge when moving > 0.5 and charge < 80% otherwise moving",
     ],
     "hungry": [
         "sensor hungry is latch of charge below 20% above 80%",

@@ -99,7 +99,8 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         return {"inside": parts[0]}
 
     def computed(self, meta: Any, parts: list[Any]) -> dict[str, Any]:
-        return {"phrase": Phrase(parts[0], (), parts[0].span), "at": parts[1]}
+        kind, at, gate = (*parts, None)[:3]
+        return {"phrase": Phrase(kind, (), kind.span), "at": at, "gate": gate}
 
     def numbered(self, meta: Any, parts: list[Any]) -> Phrase:
         """The numbers go as an argument that is called as its kind; a name before them is that of a part."""

@@ -23,6 +23,7 @@ class Mistake:
     example: str
 
 
+_SENDS = r"(?:drives|influences|sensor\s+\w+\s+is\s+computed)"  # what takes a condition and an otherwise
 _PART, _WHOLE, _VERB, _NOUN = ("|".join(words) for words in (PARTS, WHOLES, VERBS, NOUNS))
 _NAMED = f"{_NOUN}|reads|drives|influences|contains|teaches|master"  # what a name stands after
 _INVISIBLE = r"[\x00-\x08\x0e-\x1f\x7f\u00ad\u200b-\u200f\u202a-\u202e\u2060-\u2064\ufeff]+"  # characters
@@ -160,23 +161,24 @@ MISTAKES = (
     Mistake("no-if", r"^\s*reads\b.*?\s(?P<here>when|if|unless|while|else)\b",
         "What a skill reads, it reads always.", "A condition stands after drives or influences.",
         "reads eyes when holding > 0.5"),
-    Mistake("no-if", r"^\s*(?:drives|influences)\b.*?\s(?P<here>if|unless|while)\b",
+    Mistake("no-if", rf"^\s*{_SENDS}\b.*?\s(?P<here>if|unless|while)\b",
         "A condition stands after when.",
         "Write when instead of {here}, as in influences Grab at 1 when holding > 0.5.",
         "influences Seek if holding > 0.5"),
-    Mistake("no-if", r"^\s*(?:drives|influences)\b.*?\s(?P<here>else)\b",
+    Mistake("no-if", rf"^\s*{_SENDS}\b.*?\s(?P<here>else)\b",
         "What holds where a condition does not, stands after otherwise.", "Write otherwise instead of else.",
         "influences Seek at 1 when holding > 0.5 else 0"),
-    Mistake("no-if", r"^\s*(?:drives|influences)\b(?!.*\bwhen\b).*?\s(?P<here>otherwise)\b",
+    Mistake("no-if", rf"^\s*{_SENDS}\b(?!.*\bwhen\b).*?\s(?P<here>otherwise)\b",
         "Before otherwise stands a condition.",
         "Write when and a comparison before it: at 1 when holding > 0.5 otherwise 0.",
         "influences Seek at 1 otherwise 0"),
-    Mistake("no-if", r"^\s*(?:drives|influences)\b(?!.*\bwhen\b).*?\sat\s.*?(?P<here><=|>=|==|!=|<|>)",
+    Mistake("no-if", rf"^\s*{_SENDS}\b(?!.*\bwhen\b).*?\sat\s.*?(?P<here><=|>=|==|!=|<|>)",
         "A value after at is a number: it compares nothing.",
         "Compare after when: at 1 when holding > 0.5 otherwise 0; or let it grow with the reading: 10 * (x - 0.4).",
         "influences Seek at holding > 0.5"),
     Mistake("otherwise", r"^\s*(?:rewards|ends|succeeds)\b.*?(?P<here>otherwise)\b",
-        "Only what a skill sends has an otherwise.", "Write a line of its own, with the condition turned round.",
+        "Only what a sensor reads or a skill sends has an otherwise.",
+        "Write a line of its own, with the condition turned round.",
         "rewards 1 per tick when holding > 0.5 otherwise 0"),
     Mistake("cuts", r"^\s*drives\b.*?(?P<here>\bcuts\b.*)$",
         "Only an influence can be cut: a command of 0 is a command as any other.",

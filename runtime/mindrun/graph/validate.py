@@ -9,7 +9,7 @@ from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task, varied_quan
 from mindrun.graph.tasks import varied_kind
 from mindrun.kinds.registry import arguments
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS
-from mindrun.numbers.expression import OPERATORS, is_condition, is_valid_program, leaves
+from mindrun.numbers.expression import CHOICES, OPERATORS, is_condition, is_valid_program, leaves
 from mindrun.numbers.quantity import THING, UNSAID
 
 NAME = re.compile(r"[^\W\d_]\w*([+.]\w+)*")
@@ -195,7 +195,8 @@ def _computes(
     program: Program, readings: Container[int], measures: int = 0, each: bool = False, commands: int = 0
 ) -> bool:
     """True if a program has a value, and uses only these readings, measures, commands and, in a loop, the reading."""
-    words = {*OPERATORS, "negate", "number", "reading", "measure", "command"} | ({"each"} if each else set())
+    words = {*OPERATORS, "negate", "number", "reading", "measure", "command"} - {*CHOICES}
+    words |= {"each"} if each else set()
     return (
         is_valid_program(program)
         and {word for word, _ in program} <= words
