@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from math import degrees, sin
 from typing import Any
 
+from mindrun.kinds.registry import find_kind, later_fields
 from mindrun.numbers.quantity import ANGLE
 
 from mindlang.lock.training_world import TrainingWorld
@@ -59,6 +60,8 @@ def _kind_changes(noun: str, name: str, old: Mapping[str, Any], now: Mapping[str
     if old["is"] != now["is"]:
         yield f"taught with {name} as {old['is']}, now {now['is']}"
         return
+    later = later_fields(cls) if (cls := find_kind(noun, now["is"])) else {}
+    old, now = later | old, later | now
     for field in [field for field in now if field != "is" and field in old and old[field] != now[field]]:
         if isinstance(now[field], list) and any(isinstance(each, str) for each in now[field]):
             yield f"the text of {name} has changed"

@@ -19,6 +19,7 @@ ROOMS = {  # where the kinds of a noun stand: a module for each, of its name, or
     "memory": "mindrun.kinds.memory", "curriculum": "mindrun.kinds.learners",
     "sensor driver": "mindrun.robot.drivers", "actuator driver": "mindrun.robot.drivers",
 }  # fmt: skip
+LATER = {"later": True}  # metadata of a field that older data does not have, nor newer where it has its default
 SHARED_NOUNS = {"scene": "task"}  # a scene is one of those that a task can be in
 _kinds: dict[str, dict[str, type[Any]]] = defaultdict(dict)
 _names: dict[type[Any], str] = {}
@@ -117,6 +118,11 @@ def arguments(cls: type[Any]) -> tuple[Argument, ...]:
             for f in sorted(fields(cls), key=lambda field: field.kw_only is True)
         )
     return _arguments[cls]
+
+
+def later_fields(cls: type[Any]) -> dict[str, Any]:
+    """The defaults of a class's fields that came LATER, by name."""
+    return {field.name: field.default for field in fields(cls) if field.metadata == LATER}
 
 
 def named_arguments(cls: type[Any]) -> tuple[Argument, ...]:
