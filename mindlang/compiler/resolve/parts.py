@@ -9,6 +9,7 @@ from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.registry import kinds
 from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.sensors.computed import Computed
+from mindrun.kinds.sensors.sensor import directions
 from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
@@ -78,8 +79,9 @@ def sensors(names: Names, findings: Findings) -> Parts:
         widest = max(found, key=lambda sensor: sensor.width)
         message = f"With these {widest.width} the mind has {readings} readings."
         findings.error("too-many-readings", widest.span, message, f"A mind takes {MOST_READINGS}: leave some out.")
+    around = directions({sensor.name: sensor.kind for sensor in found})
     for sensor in found:
-        if sensor.name not in formulas and (flaw := sensor.kind.flaw(widths)):
+        if sensor.name not in formulas and (flaw := sensor.kind.flaw(widths, around)):
             header = names.table["sensor"][sensor.name].header
             arguments = header.phrase.arguments if header.phrase else ()
             said = (each.value.span for each in arguments if each.key.text == flaw.field)

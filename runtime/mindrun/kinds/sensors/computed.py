@@ -59,9 +59,11 @@ class Computed(SensorKind):
                 return left - right if symbol == "-" else left + right
             return 0 if left == right == 0 else None
 
+        if not is_valid_program(self.at):  # which its flaw says
+            return False
         return fold(self.at, leaf, lambda count: None if count is None else -count, combined) in (1, -1)
 
-    def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
+    def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
         """A flaw where the expression is not whole, or names what has not a single reading."""
         starts = dict.fromkeys(self.sources, 0)
         if not (is_valid_program(placed(self.at, starts)) and all(widths.get(name) == 1 for name in self.sources)):
