@@ -136,6 +136,12 @@ REWARDS = [
     ["rewards -0.1 * retreat from ball per tick", "rewards -0.1 * retreat from nest per tick"],
     ["rewards -0.4 * change of thrust per tick", "rewards -0.4 * change of thrust beyond 20% over 4 ticks per tick"],
     ["rewards -0.01 * claw per tick when charge > 0.5 and moving < 0.9 or holding > 0.5"],
+    ["rewards 0.1 * progress of ball toward nest per tick", "rewards 0.1 * progress of coin toward dock per tick"],
+    ["rewards 0.1 * advance of coin toward ball per tick", "rewards 0.1 * advance of ball toward dock per tick"],
+    ["rewards -0.1 * retreat of ball from nest per tick", "rewards -0.1 * retreat of coin from dock per tick"],
+    ["rewards -0.1 * distance of ball to nest per tick", "rewards -0.1 * distance of coin to ball per tick"],
+    ["rewards 5 on reach of nest by ball", "rewards 5 on reach of ball by coin", "rewards 5 on leave of dock"],
+    ["rewards -5 on leave of nest by ball", "rewards -5 on leave of dock by coin"],
     ["rewards 50 on delivery of ball", "rewards 50 on delivery of coin to nest"],
 ]
 GATES = [" when {} < 0.7", " when {} > 0.2 and 1 > 0.5 otherwise 0.3"]

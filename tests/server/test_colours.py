@@ -28,7 +28,7 @@ TOKENS = {
     "ITS": FUNCTION,
     "ENVIRONMENT": "string.unquoted",
     **dict.fromkeys(("COMPUTED", "NUMBERED", "GYMNASIUM"), KIND),
-    **dict.fromkeys(("FROM", "TO", "FACING"), KEY),
+    **dict.fromkeys(("FROM", "TO", "BY", "FACING"), KEY),
     **dict.fromkeys(("EXTREME", "AND", "OR", "TICK", "LEVEL"), WORD),
     **dict.fromkeys(("SIGN", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
 }
@@ -84,7 +84,8 @@ def _tokens(tree: Tree[Token], event: str) -> Iterator[tuple[Token, str]]:
             yield child, _of_name(tree, child, names, event)
             names += 1
         else:
-            yield child, WORD if tree.data == "facing" else TOKENS[child.type]
+            is_word = tree.data == "facing" or (tree.data, child.type) == ("argument", "BY")
+            yield child, WORD if is_word else TOKENS[child.type]
 
 
 def _of_name(tree: Tree[Token], token: Token, number: int, event: str) -> str:

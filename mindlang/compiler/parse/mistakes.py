@@ -386,10 +386,10 @@ MISTAKES = (
     Mistake("missing-of", r"\b(?P<kind>procedure)\s+(?P<here>(?!from\b)[a-z][\w.]*)", "After {kind} comes from.",
         "Write {kind} from {here}.", "skill Avoid is procedure robot.avoid"),
     Mistake("missing-of",
-        r"\b(?P<kind>bearing|contact|held|inside|derivative|change|reach|delivery|visit)\s+"
+        r"\b(?P<kind>bearing|contact|held|inside|derivative|change|reach|leave|delivery|visit)\s+"
         r"(?P<here>(?!(?:of|range|dead_zone|size|per|on|when|at|to)\b)[a-z]\w*)",
         "After {kind} comes of.", "Write {kind} of {here}.", "sensor ball_bearing is bearing ball"),
-    Mistake("missing-of", r"\b(?P<kind>progress|advance)\s+(?P<here>(?!toward\b|per\b|on\b|to\b|towards\b)[a-z]\w*)",
+    Mistake("missing-of", r"\b(?P<kind>progress|advance)\s+(?P<here>(?!of\b|toward\b|per\b|on\b|to\b|towards\b)[a-z]\w*)",
         "After {kind} comes toward.", "Write {kind} toward {here}.", "rewards progress ball per tick"),
     Mistake("missing-at",
         r"^\s*(?P<noun>drives|influences)\s+(?P<name>[\w+.]+)\s+(?P<here>with|by|to|=|of)\s+(?P<rest>.*)$",
@@ -440,10 +440,10 @@ MISTAKES = (
     Mistake("for-each", r"^\s*rewards\s.*?\bfor\s+each\s+(?P<here>\w+)\s*(?:$|\bwhen\b)",
         "for each gives a reading a name.", "Write for each p in {here}.", "rewards p per tick for each eyes"),
     Mistake("missing-amount",
-        r"^\s*rewards\s+(?P<here>(?:reach|delivery|visit|collision|exhaustion)\b(?:(?!\s+(?:per|on|with)\b).)*)(?:\s+with\s.*)?$",
+        r"^\s*rewards\s+(?P<here>(?:reach|leave|delivery|visit|collision|exhaustion)\b(?:(?!\s+(?:per|on|with)\b).)*)(?:\s+with\s.*)?$",
         "A reward says how much.", "Write rewards 10 on {here}.", "rewards reach of ball"),
     Mistake("when-given",
-        r"^\s*rewards\s+\S+\s+(?P<here>for|at|when)\s+(?:reach|delivery|visit|collision|exhaustion)\b",
+        r"^\s*rewards\s+\S+\s+(?P<here>for|at|when)\s+(?:reach|leave|delivery|visit|collision|exhaustion)\b",
         "A reward is given on an event.", "Write on instead of {here}.", "rewards 10 for reach of ball"),
     Mistake("when-given", r"^\s*rewards\s+(?P<here>(?:(?!\s+(?:per|on)\b).)+)$", "A reward says when it is given.",
         "Add per tick, or on and an event.", "rewards 0.01 * forward"),
@@ -468,7 +468,7 @@ MISTAKES = (
         "drives claw at 2 holding"),
 )
 
-_HAPPENS = r"(?:\d+\s+)?(?:reach|delivery|visit|collision|exhaustion|success|stopped|fault)\b[^<>]*"
+_HAPPENS = r"(?:\d+\s+)?(?:reach|leave|delivery|visit|collision|exhaustion|success|stopped|fault)\b[^<>]*"
 STOP_MISTAKES = (  # of lines of a .break file
     Mistake("missing-when", r"^\s*stop\s+(?P<here>if|while|until|once|unless)\b", "A condition stands after when.",
         "Write when instead of {here}.", "stop if holding > 0.5"),

@@ -15,8 +15,8 @@ from mindrun.sim.arrays import Block, Room
 PUSH, STEERING, GRIPPER, IDLE = range(4)
 ITEM, ZONE, POWER, BOX, BALL, WALKER = range(6)
 STAYS, MOVES, VANISHES = range(3)
-PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE, ITS_REWARD = range(6)
-REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION, SUCCESS, ITS_END = range(7)
+PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE, ITS_REWARD, APART = range(7)
+REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION, SUCCESS, ITS_END, LEAVE = range(8)
 CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, TIMES, OVER, INVERSE, DAMPING = range(8)  # how a number of a run comes about
 
 GOING_ON, LOST, BROKEN_OFF = -1, -2, -4  # no event has ended a run: out of time, beyond FAR, its environment has
@@ -35,11 +35,11 @@ ACTUATOR_CODES = {
 THING_CODES = {"item": ITEM, "zone": ZONE, "power": POWER, "box": BOX, "ball": BALL, "walker": WALKER}
 MEASURE_CODES = {
     "progress": PROGRESS, "advance": ADVANCE, "retreat": RETREAT, "forward": FORWARD, "change": CHANGE,
-    "its reward": ITS_REWARD,
+    "its reward": ITS_REWARD, "distance": APART,
 }  # fmt: skip
 EVENT_CODES = {
     "reach": REACH, "delivery": DELIVERY, "visit": VISIT, "collision": COLLISION, "exhaustion": EXHAUSTION,
-    "success": SUCCESS, "its end": ITS_END,
+    "success": SUCCESS, "its end": ITS_END, "leave": LEAVE,
 }  # fmt: skip
 
 
@@ -89,7 +89,7 @@ THING = _columns(
 LOOSE = _columns(i8="thing is_round density friction slower number turn")
 WALKING = _columns(i8="thing first places begins", f8="step turn")
 OBSTACLE = _columns(i8="columns rows count", f8="first last grid jitter x y low high")
-MEASURES = _columns(i8="kind thing things over ring", f8="beyond")
+MEASURES = _columns(i8="kind thing things of ofs over ring", f8="beyond")
 EVENT = _columns(i8="kind thing things to tos arrival columns rows board", f8="patch")
 END = _columns(i8="event times when whens succeeds")
 REWARD = _columns(i8="code length on each eachs when whens")
