@@ -389,7 +389,7 @@ MISTAKES = (
         r"\b(?P<kind>bearing|contact|held|inside|derivative|change|reach|leave|delivery|visit)\s+"
         r"(?P<here>(?!(?:of|range|dead_zone|size|per|on|when|at|to)\b)[a-z]\w*)",
         "After {kind} comes of.", "Write {kind} of {here}.", "sensor ball_bearing is bearing ball"),
-    Mistake("missing-of", r"\b(?P<kind>progress|advance)\s+(?P<here>(?!of\b|toward\b|per\b|on\b|to\b|towards\b)[a-z]\w*)",
+    Mistake("missing-of", r"\b(?P<kind>progress|advance)\s+(?P<here>(?!(?:of|towards?|per|on|to)\b)[a-z]\w*)",
         "After {kind} comes toward.", "Write {kind} toward {here}.", "rewards progress ball per tick"),
     Mistake("missing-at",
         r"^\s*(?P<noun>drives|influences)\s+(?P<name>[\w+.]+)\s+(?P<here>with|by|to|=|of)\s+(?P<rest>.*)$",

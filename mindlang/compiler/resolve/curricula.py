@@ -40,7 +40,7 @@ def lessons(
     widths: Mapping[str, int],
     findings: Findings,
 ) -> Iterator[model.Lesson]:
-    """Every lesson of every curriculum that is well said, in order."""
+    """Every lesson of every curriculum that is well said; those that others wait for come first."""
     hopeless = {each.name for each in tasks if each.declaration.whole and not any(end.succeeds for end in each.ends)}
     context = _LessonContext(names, {skill.name: skill for skill in skills}, influences, hopeless, widths, findings)
     for name, declaration in names.declarations("curriculum"):
@@ -49,9 +49,9 @@ def lessons(
         learner = make_kind("curriculum", phrase, Scope(names, None), findings) if phrase else None
         taught = of_form(declaration.facts, Teaches)
         heirs = {fact.skill.text: origin.text for fact in taught if (origin := _origin(fact.arguments))}
-        for number, fact in enumerate(taught, 1):
-            if lesson := context.lesson(name, number, fact, learner, heirs):
-                yield lesson
+        said = (context.lesson(name, fact, learner, heirs) for fact in taught)
+        for number, lesson in enumerate(context.by_need([lesson for lesson in said if lesson]), 1):
+            yield replace(lesson, number=number)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,10 +65,8 @@ class _LessonContext:
     widths: Mapping[str, int]
     findings: Findings
 
-    def lesson(
-        self, curriculum: str, number: int, fact: Teaches, learner: Any, heirs: Mapping[str, str]
-    ) -> model.Lesson | None:
-        """The lesson that a fact says, the `number`th of the curriculum; None after reporting what is wrong with it.
+    def lesson(self, curriculum: str, fact: Teaches, learner: Any, heirs: Mapping[str, str]) -> model.Lesson | None:
+        """The lesson that a fact says; None after reporting what is wrong with it.
 
         `learner` is the curriculum's, None where that is wrong; `heirs` are the skills that begin with another's
         weights, with the names of these.
@@ -99,11 +97,39 @@ class _LessonContext:
             from_scratch=FROM in switches and not origin,
             with_subskills="with" in switches,
             learner=learner,
-            number=number,
             starts_from=origin.text if origin else "",
             needs=needs,
             fact=fact,
         )
+
+    def by_need(self, lessons: Sequence[model.Lesson]) -> Iterator[model.Lesson]:
+        """Lessons in an order in which each comes after the first that teaches what acts in it or what it begins with.
+
+        Those that teach one skill stay in order. Of a circle the first stands where it is.
+        """
+        left = list(lessons)
+        taught = {lesson.fact: self._taught(lesson) for lesson in left}
+        needs = {lesson.fact: self._needed(lesson) - taught[lesson.fact] for lesson in left}
+        while left:
+            free = (
+                lesson
+                for place, lesson in enumerate(left)
+                if not any(needs[lesson.fact] & taught[other.fact] for other in left)
+                and not any(taught[lesson.fact] & taught[other.fact] for other in left[:place])
+            )
+            following = next(free, left[0])
+            left.remove(following)
+            needs = {fact: of - taught[following.fact] for fact, of in needs.items()}
+            yield following
+
+    def _taught(self, lesson: model.Lesson) -> set[str]:
+        names = with_descendants(self.influences, [lesson.skill]) if lesson.with_subskills else {lesson.skill}
+        owners = (self.skills[self.skills[name].owner] for name in names)
+        return {skill.name for skill in owners if not skill.frozen and skill.function and skill.function.learns}
+
+    def _needed(self, lesson: model.Lesson) -> set[str]:
+        acting = with_descendants(self.influences, [lesson.master])
+        return {self.skills[name].owner for name in (*acting, *filter(None, [lesson.starts_from]))}
 
     def _switches(self, written: Sequence[Argument]) -> set[str]:
         """The switches that a lesson says; a word after one that is not its own is reported, but for a skill's name."""
