@@ -290,7 +290,7 @@ class Counts(Struct, frozen=True):
 
 
 class Needs(Struct, frozen=True):
-    """`needs MEASURE > NUMBER`, of a lesson."""
+    """`needs MEASURE > NUMBER` or `until MEASURE > NUMBER`, of a lesson."""
 
     measure: Name
     compare: str
@@ -299,7 +299,7 @@ class Needs(Struct, frozen=True):
 
 
 class Teaches(Struct, frozen=True):
-    """`teaches SKILL on TASK [under MASTER] for GENERATIONS …`"""
+    """`teaches SKILL on TASK [under MASTER] [until MEASURE > NUMBER] for [at most] GENERATIONS …`"""
 
     skill: Name
     task: Name
@@ -308,6 +308,7 @@ class Teaches(Struct, frozen=True):
     arguments: tuple[Argument, ...]
     needs: tuple[Needs, ...]
     span: Span
+    until: Needs | None = None
 
 
 Fact = (

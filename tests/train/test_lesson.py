@@ -321,6 +321,15 @@ def test_the_lowest_share_is_the_mean_of_the_worst_layouts(scores: list[int], pe
     assert lowest_mean(np.array([scores], np.float64), percent / 100)[0] == pytest.approx(sum(worst) / count)
 
 
+def test_a_lesson_ends_once_its_champion_does_so_well_and_not_before() -> None:
+    until = replace(lesson(100), until=Need("score", -8.0))
+    state, records = taught(Course(until, 1, UNKNOWN), Sphere())
+    whole, _ = taught(Course(lesson(100), 1, UNKNOWN), Sphere())
+    assert len(records) < 100
+    assert records[-1].reevaluated is not None
+    assert -8.0 - 4.0 < state.reevaluated < whole.reevaluated
+
+
 def test_a_fault_in_its_verdict_makes_an_attempt_the_worst() -> None:
     course = Course(lesson(5), 1, UNKNOWN)
     state = replace(begin_attempt(course), champion=genomes_of(9.0, faulty=1.0))

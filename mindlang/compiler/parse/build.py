@@ -20,8 +20,8 @@ _FORMS: Mapping[str, type[Struct]] = {
     "master": syntax.Master, "tick": syntax.Tick, "mind": syntax.Version, "unit": syntax.Unit, "number": syntax.Number,
     "reads": syntax.Reads, "gate": syntax.Gate, "stays": syntax.Stays, "contains": syntax.Contains,
     "varies": syntax.Varies, "fails": syntax.Fails, "lasts": syntax.Lasts, "counts": syntax.Counts,
-    "transmission": syntax.Transmits, "needs": syntax.Needs, "each": syntax.Each, "when": syntax.When,
-    "comparison": syntax.Comparison, "argument": Argument, "setting": Argument, "origin": Argument,
+    "transmission": syntax.Transmits, "needs": syntax.Needs, "until": syntax.Needs, "each": syntax.Each,
+    "when": syntax.When, "comparison": syntax.Comparison, "argument": Argument, "setting": Argument, "origin": Argument,
 }  # fmt: skip
 _OUTCOME = {"times": Amount, "event": Phrase, "when": syntax.When}
 # Rules any of whose parts may be missing: which field a part is, its type says.
@@ -127,10 +127,11 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     def teaches(self, meta: Any, parts: list[Any]) -> syntax.Teaches:
         skill, task, *rest = parts
         master = rest.pop(0) if isinstance(rest[0], Name) else None
+        until = rest.pop(0) if isinstance(rest[0], syntax.Needs) else None
         generations, *more = rest
         arguments = tuple(part for part in more if isinstance(part, Argument))
         needs = tuple(part for part in more if isinstance(part, syntax.Needs))
-        return syntax.Teaches(skill, task, master, generations, arguments, needs, self._span(meta))
+        return syntax.Teaches(skill, task, master, generations, arguments, needs, self._span(meta), until)
 
     def condition(self, meta: Any, parts: list[Any]) -> tuple[Any, ...]:
         return tuple(parts[::2])

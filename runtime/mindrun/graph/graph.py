@@ -1,6 +1,6 @@
 """The compiled hierarchy as plain data: names as indices, units converted, skills in the order of influence."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal
 
 from mindrun.kinds.actuators.actuator import REACH_UNITS, ActuatorKind
@@ -10,7 +10,7 @@ from mindrun.kinds.functions.function import Function
 from mindrun.kinds.learners import Learner
 from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.kinds.memory import Cell
-from mindrun.kinds.registry import arguments
+from mindrun.kinds.registry import LATER, arguments
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.kinds.things.thing import ThingKind
@@ -222,7 +222,7 @@ class Task:
 
 @dataclass(frozen=True, slots=True)
 class Need:
-    """A need of a lesson, to be met on fresh layouts: a mean `score` or a share of `success` `above` a number."""
+    """A need of a lesson, or its end, on fresh layouts: a mean `score` or a share of `success` `above` a number."""
 
     measure: Literal["score", "success"]
     above: float
@@ -239,7 +239,8 @@ class Lesson:
     With `with_subskills`, all that learn below the skill and are not frozen learn with it, as one genome. `number` is
     its place in its curriculum, from 1; 0 in what was made before lessons had one. One that `starts_from` another skill
     begins with a copy of its weights. One with `needs` has failed where its last attempt does not meet them all: it
-    ends with the first attempt that does, and what has failed is not taught.
+    ends with the first attempt that does, and what has failed is not taught. One with `until` ends an attempt once its
+    champion does so well, before it has had its generations.
     """
 
     curriculum: str
@@ -253,6 +254,7 @@ class Lesson:
     number: int = 0
     starts_from: str = ""
     needs: tuple[Need, ...] = ()
+    until: Need | None = field(default=None, metadata=LATER)
 
     @property
     def name(self) -> str:

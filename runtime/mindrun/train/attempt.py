@@ -90,7 +90,8 @@ def advance(course: Course, scorer: Scorer, stretch: Stretch, clock: Clock, most
     while not ends and (not records or not _pauses(course.lesson, state, len(records), clock() - began, most)):
         start = clock()
         state, record = generation(course, scorer, stretch.number, state)
-        if ends := ends_by_itself(course.lesson, state):
+        enough, record = is_enough(course, scorer, stretch.number, state, record)
+        if ends := enough or ends_by_itself(course.lesson, state):
             verdict = judge(course, scorer, state)
         records.append(replace(record, seconds=clock() - start))
         champions.append(state.champion)
@@ -140,6 +141,23 @@ def ends_by_itself(lesson: Lesson, state: AttemptState) -> bool:
     """True if an attempt has had all its generations, or has not become better for too many."""
     number = state.population.generation
     return number == lesson.generations or 0 < lesson.learner.patience <= number - state.since
+
+
+def is_enough(course: Course, scorer: Scorer, number: int, state: AttemptState, record: Record) -> tuple[bool, Record]:
+    """True if the champion of attempt `number`, once it was tried again, does what its lesson goes on until.
+
+    It is judged on layouts of its own, which choose nothing. The record has the ticks of that, too.
+    """
+    lesson, until = course.lesson, course.lesson.until
+    if until is None or record.reevaluated is None:
+        return False, record
+    key = course.seed, number, state.population.generation
+    results = scorer.score(state.champion, layouts(*key, VERDICT_LAYOUTS, Purpose.ENOUGH))
+    marks = marks_of(results, lesson.learner.lowest)
+    reached = marks.scores[0] if until.measure == "score" else succeeded(scorer.task, results).mean()
+    return bool(reached > until.above), replace(
+        record, ticks=record.ticks + marks.ticks, faults=record.faults + marks.faults
+    )
 
 
 def fresh_count(learner: Learner) -> int:

@@ -29,6 +29,7 @@ class Purpose(IntEnum):
     COMPARISON = 4
     RUNG = 5
     RETENTION = 6
+    ENOUGH = 7
 
 
 def breeding_generator(seed: int, attempt: int, generation: int) -> np.random.Generator:
