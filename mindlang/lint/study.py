@@ -207,9 +207,14 @@ class Study:
         return AnalysedWorld(self, _named(tasks), True, True, not tasks or _charges(tasks))
 
     @property
+    def computed(self) -> "tuple[Part[SensorKind] | Edge, ...]":
+        """What may be said by an expression, under a condition: sensors, and edges."""
+        return (*self.mind.sensors, *(edge for _, edge in self.edges))
+
+    @property
     def conditions(self) -> Iterator[Condition]:
         """Every condition of what sensors read and skills send, of rewards and of ends."""
-        for sent in (*self.mind.sensors, *(edge for _, edge in self.edges)):
+        for sent in self.computed:
             if sent.gate:
                 yield sent.gate.when, sent, self.any_world
         for task in self.mind.tasks:

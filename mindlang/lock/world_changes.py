@@ -61,7 +61,7 @@ def _kind_changes(noun: str, name: str, old: Mapping[str, Any], now: Mapping[str
         yield f"taught with {name} as {old['is']}, now {now['is']}"
         return
     later = later_fields(cls) if (cls := find_kind(noun, now["is"])) else {}
-    old, now = later | old, later | now
+    old, now = {**later, **old}, {**later, **now}
     for field in [field for field in now if field != "is" and field in old and old[field] != now[field]]:
         if isinstance(now[field], list) and any(isinstance(each, str) for each in now[field]):
             yield f"the text of {name} has changed"

@@ -247,8 +247,8 @@ def _declarations(rng: Random) -> list[list[str]]:
         blocks.append(_like(rng, next(block for block in blocks if block[0].startswith(f"skill {learners[0]} "))))
     if learners:
         lessons = [
-            f"teaches {skill} on {rng.choice(tasks)} for {rng.randint(1, 9)} generations"
-            + rng.choice(["", " from scratch"])
+            f"teaches {skill} on {rng.choice(tasks)} {rng.choice(['for', 'until score > 3 for at most'])} "
+            f"{rng.randint(1, 9)} generations" + rng.choice(["", " from scratch"])
             for skill in rng.sample(learners, rng.randint(0, len(learners)))
         ]
         learner = rng.choice(list(kinds("curriculum")))

@@ -92,7 +92,7 @@ def sensors(names: Names, findings: Findings) -> Parts:
 def _computed(header: Header, visible: Visible, findings: Findings) -> Part[Any]:
     """The sensor that is computed at an expression, or at one of two."""
     at, gate = resolve_expressions((header.at, header.gate), visible, findings)
-    formula = at.formula
+    formula = at.formula if at else ()
     if gate and gate.otherwise:
         formula = (*formula, *gate.when.formula, ("when", 0), *gate.otherwise.formula, ("otherwise", 0))
     elif gate:

@@ -47,7 +47,7 @@ def check(study: Study) -> Found:
 
 def _values(study: Study) -> Iterator[tuple[Expression, Alternatives, Conditional, AnalysedWorld]]:
     """The expressions of sensors, edges, rewards and comparisons, each with the alternatives in which it counts."""
-    for sent in (*study.mind.sensors, *(edge for _, edge in study.edges)):
+    for sent in study.computed:
         if sent.at:
             yield sent.at, sent.gate.when.alternatives if sent.gate else ALWAYS, sent, study.any_world
         if sent.gate and sent.gate.otherwise:

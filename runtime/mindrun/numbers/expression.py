@@ -61,7 +61,7 @@ def is_condition(program: Program) -> bool:
     return is_valid_program(program) and program[-1][0] in TRUTHS
 
 
-def is_valid_program(program: Program) -> bool:
+def is_valid_program(program: Iterable[tuple[str, Any]]) -> bool:
     """True if a program never takes from an empty stack and leaves exactly one value."""
     height = 0
     for operator, _ in program:
