@@ -15,7 +15,7 @@ from mindrun.sim.lanes.think import run_program
 from mindrun.sim.state import PLACE_ROWS, State, WorldState
 from mindrun.sim.units import unit, unit_where
 
-REACH_BEGUN, LEFT = 1, 2  # in this tick and not in the one before; or the other way round
+REACH_BEGUN, REACH_LEFT = 1, 2  # in this tick and not in the one before; or the other way round
 
 
 @unit
@@ -92,7 +92,7 @@ def notice(tables, state, i, out, lanes):
 def cross(tables: Tables, state: State, i: int, lanes: int) -> None:
     """Count the things of event i, or the robot, that come to what it is about in this tick, or leave it."""
     event, world, judged = tables.events[i], state.world, state.judge
-    wanted = LEFT if event.kind == LEAVE else REACH_BEGUN
+    wanted = REACH_LEFT if event.kind == LEAVE else REACH_BEGUN
     for lane in range(lanes):
         judged.events[i, lane] = 0.0
         for k in range(max(1, event.tos)):
