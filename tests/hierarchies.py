@@ -2,7 +2,7 @@
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
-from math import prod
+from math import pi, prod
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +20,7 @@ from mindrun.kinds.sensors.bumper import Bumper
 from mindrun.kinds.sensors.claw import Contact, Held
 from mindrun.kinds.sensors.compass import Compass
 from mindrun.kinds.sensors.computed import Computed
-from mindrun.kinds.sensors.derived import Average, Derivative, Latch, Reading
+from mindrun.kinds.sensors.derived import Average, Derivative, Latch, Reading, Turned
 from mindrun.kinds.sensors.floor import Floor, Inside
 from mindrun.kinds.sensors.motion import Inertial, Odometer, Position, Speed, TurnRate
 from mindrun.kinds.sensors.nearest import Bearing, Distance, Light
@@ -93,7 +93,7 @@ ROUGH = st.fixed_dictionaries(
         "delay": st.integers(1, 3),
     },
 )
-VIRTUAL = st.sampled_from(["sine", "clock", "derivative", "computed", "latch", "average", "reading"])
+VIRTUAL = st.sampled_from(["sine", "clock", "derivative", "computed", "latch", "average", "reading", "turned"])
 ACTUATORS = [Wheel("left", 0.5), Wheel("right", 0.5, delay=2), Gripper(0.0), Servo(0.3)]
 CALLED = Procedure("")
 PROCEDURES = Path(__file__).parent / "procedures"  # the folder of the modules that are called
@@ -245,6 +245,8 @@ def virtual_kinds(
             return widths[of], Latch(of, *sorted(draw(st.tuples(SHARES, SHARES))))
         case "average":
             return widths[of], Average(of, draw(st.integers(1, 5)))
+        case "turned" if around:
+            return 1, Turned(draw(st.sampled_from(sorted(around))), draw(st.sampled_from([pi, -1.0, 7.5])))
         case "reading":
             of = draw(st.sampled_from([name for name, width in sorted(widths.items()) if width > 1] or [of]))
             return 1, Reading(draw(st.integers(1, widths[of])), of)
@@ -253,7 +255,10 @@ def virtual_kinds(
         name, more = draw(st.sampled_from(turning)), draw(st.sampled_from([-1.25, -0.5, 0.0, 0.1, 2.0]))
         terms = (("reading", name), ("number", more))
         return 1, Computed((*(terms[::-1] if more > 0 else terms), ("-" if more == 0.1 else "+", 0)))
-    numbered = draw(programs(tuple(range(len(single)))))
+    sides = programs(tuple(range(len(single))))
+    numbered = draw(sides)
+    if draw(st.integers(0, 2)) == 0:
+        numbered = (*numbered, *draw(conditions(sides)), ("when", 0), *draw(sides), ("otherwise", 0))
     return 1, Computed(tuple((word, single[int(x)] if word == "reading" else x) for word, x in numbered))
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from mindrun.kinds.functions.procedure import Procedure
 from mindrun.kinds.sensors.compass import Compass
 from mindrun.kinds.sensors.computed import Computed
-from mindrun.kinds.sensors.derived import Average, Derivative, Reading
+from mindrun.kinds.sensors.derived import Average, Derivative, Reading, Turned
 from mindrun.kinds.sensors.nearest import Bearing
 from mindrun.kinds.sensors.waves import Clock, Sine
 from mindrun.numbers.arithmetic import DENOMINATOR, LIMIT, NUMERATOR
@@ -80,6 +80,9 @@ class Plain:
         match kind:
             case Derivative():
                 return self.derivative(kind, source, i, turns(source, parts))
+            case Turned():
+                way = np.float64(self.readings[source.start + i]) - np.float64(f(kind.by / (2 * math.pi)))
+                return f(way if 0 <= way <= 1 else way - math.floor(way) if math.isfinite(way) else way)
             case Reading():
                 return self.readings[source.start + kind.reading - 1]
         past = self.past.setdefault((sensor.name, i), [])
@@ -217,7 +220,7 @@ class Plain:
 def turns(part, parts):
     """Whether a sensor or memory reads a direction."""
     match part.kind:
-        case Average(of=of) | Reading(of=of):
+        case Average(of=of) | Reading(of=of) | Turned(of=of):
             return turns(parts[of], parts)
         case Computed(at=formula):
             return is_turned(formula, parts)
@@ -236,6 +239,9 @@ def is_turned(formula, parts):
             stack.append(-stack.pop())
         else:
             b, a = stack.pop(), stack.pop()
+            if word == "when" or (word == "otherwise" and abs(a) == abs(b)):
+                stack.append(a)
+                continue
             stack.append(a + b if word == "+" else a - b if word == "-" else 0 if a == b == 0 else math.nan)
     return abs(stack[0]) == 1
 
@@ -286,6 +292,12 @@ def postfix(program, readings):
             stack.append(-stack.pop())
         else:
             b, a = stack.pop(), stack.pop()
+            if word == "when":  # None where the condition does not hold
+                stack.append(None if b == 0 else a if b == 1 else np.float64(np.nan))
+                continue
+            if word == "otherwise":
+                stack.append(b if a is None else a)
+                continue
             if word not in "+-*/" and (math.isnan(a) or math.isnan(b)):
                 stack.append(np.float64(np.nan))
                 continue

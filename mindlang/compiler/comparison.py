@@ -111,7 +111,7 @@ def _numbered(old: Sequence[_Line], new: Sequence[_Line]) -> tuple[list[int], li
 def _declared(mind: Mind) -> dict[str, dict[str, list[_Line]]]:
     """The lines of every declaration, by noun and name; a scene means what the tasks in it say."""
     lessons: dict[str, list[Lesson]] = {}
-    for lesson in mind.lessons:
+    for lesson in sorted(mind.lessons, key=lambda lesson: lesson.fact.span.start):
         lessons.setdefault(lesson.curriculum, []).append(lesson)
     parts: Mapping[str, Iterable[Any]] = {
         "body": (mind.body,), "actuator": mind.actuators, "sensor": mind.sensors, "memory": mind.memories,

@@ -11,7 +11,7 @@ from mindlang.compiler import model
 from mindlang.compiler.format import spaced
 from mindlang.compiler.hierarchy import topological_order
 from mindlang.compiler.references import DRIVABLE_NOUNS
-from mindlang.compiler.syntax import Comparison, Expression, When, of_form
+from mindlang.compiler.syntax import Expression, When
 
 T = TypeVar("T")
 
@@ -119,16 +119,10 @@ def _reward(reward: model.Reward, events: dict[Any, int], places: Places) -> gra
 
 def lower_condition(when: When, places: Places) -> graph.Program:
     """A condition as a postfix program: comparisons joined by `and` into alternatives, these by `or`."""
-    found: list[tuple[str, float | int]] = []
-    for number, all_ in enumerate(when.alternatives):
-        for place, each in enumerate(of_form(all_, Comparison)):
-            found += [*_program(each.left, places), *_program(each.right, places), (each.compare, 0)]
-            found += [("and", 0)] if place else []
-        found += [("or", 0)] if number else []
-    return tuple(found)
+    return _program(when, places)
 
 
-def _program(expression: Expression, places: Places) -> graph.Program:
+def _program(expression: Expression | When, places: Places) -> graph.Program:
     def placed(word: str, operand: Any) -> tuple[str, float | int]:
         match word:
             case "reading":

@@ -30,13 +30,15 @@ K = TypeVar("K")
 class Part(Struct, Generic[K], frozen=True):
     """Something with a name and a kind: a sensor, an actuator, a memory, a body, a thing of a task.
 
-    `width` is how many readings a sensor has.
+    `width` is how many readings a sensor has; one that is computed has the value `at`, where its `gate` is open.
     """
 
     name: str
     kind: K
     span: Span
     width: int = 1
+    at: syntax.Expression | None = None
+    gate: syntax.Gate | None = None
 
 
 class Thing(Part[ThingKind], frozen=True):

@@ -85,9 +85,9 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
     match line:
         case syntax.Master(name):
             yield name, ("skill",)
-        case Header(noun, _, phrase, like=like, inside=inside, at=at):
+        case Header(noun, _, phrase, like=like, inside=inside):
             yield from (*_if_any(like, noun.text), *_if_any(inside, "scene"), *_in_phrase(noun.text, phrase))
-            yield from _in_expressions(at)
+            yield from _in_expressions(*syntax.expressions_in(line))
         case syntax.Reads(name, stands_for):
             yield name, READABLE_NOUNS
             yield from _if_any(stands_for, *READABLE_NOUNS)

@@ -159,6 +159,17 @@ class When(Struct, frozen=True):
     alternatives: tuple[tuple[Comparison, ...], ...]
     span: Span
 
+    @property
+    def formula(self) -> tuple[tuple[str, Any], ...]:
+        """The words and operands of its resolved terms: comparisons joined by `and`, and these by `or`."""
+        found: list[tuple[str, Any]] = []
+        for number, all_ in enumerate(self.alternatives):
+            for place, each in enumerate(of_form(all_, Comparison)):
+                found += [*each.left.formula, *each.right.formula, (each.compare, 0)]
+                found += [("and", 0)] if place else []
+            found += [("or", 0)] if number else []
+        return tuple(found)
+
 
 class Gate(Struct, frozen=True):
     """`when CONDITION [otherwise EXPRESSION]`"""
@@ -303,7 +314,7 @@ class Counts(Struct, frozen=True):
 
 
 class Needs(Struct, frozen=True):
-    """`needs MEASURE > NUMBER`, of a lesson."""
+    """`needs MEASURE > NUMBER` or `until MEASURE > NUMBER`, of a lesson."""
 
     measure: Name
     compare: str
@@ -312,7 +323,7 @@ class Needs(Struct, frozen=True):
 
 
 class Teaches(Struct, frozen=True):
-    """`teaches SKILL on TASK [under MASTER] for GENERATIONS …`"""
+    """`teaches SKILL on TASK [under MASTER] [until MEASURE > NUMBER] for [at most] GENERATIONS …`"""
 
     skill: Name
     task: Name
@@ -321,6 +332,7 @@ class Teaches(Struct, frozen=True):
     arguments: tuple[Argument, ...]
     needs: tuple[Needs, ...]
     span: Span
+    until: Needs | None = None
 
 
 Fact = (
@@ -333,7 +345,7 @@ class Header(Struct, frozen=True):
     """`NOUN NAME is PHRASE`; the phrase is missing where the line is malformed, or is that of another declaration.
 
     `like` is the skill, scene or task that this one is like, `inside` the scene of a task by its name, and `at` the
-    value of a sensor that is computed.
+    value of a sensor that is computed, where its `gate` is open.
     """
 
     noun: Name
@@ -343,6 +355,7 @@ class Header(Struct, frozen=True):
     like: Name | None = None
     inside: Name | None = None
     at: Expression | None = None
+    gate: Gate | None = None
 
     @property
     def is_read(self) -> bool:
@@ -451,8 +464,8 @@ def expressions_in(*nodes: Any) -> Iterator[Expression]:
         match node:
             case Expression():
                 yield node
-            case Header(at=at):
-                yield from expressions_in(at)
+            case Header(at=at, gate=gate):
+                yield from expressions_in(at, gate)
             case Contains(when=when):
                 yield from expressions_in(when)
             case Sends() | Gate() | Outcome() | When() | Comparison() | Rewards():

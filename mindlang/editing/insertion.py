@@ -141,12 +141,6 @@ def below_siblings(declaration: Declaration, form: type[Fact], texts: Iterable[s
     return insert_below(first_line((nearest or declaration.header).span), [f"{indent}{text}" for text in texts])
 
 
-def above_fact(fact: Fact, texts: Iterable[str]) -> Splice:
-    """Insert facts above another and the comments that lead it, indented as it is."""
-    line = first_line(fact.span)
-    return insert_above([line, *_leading(line)][-1], newline(line.source).join(f"{line.indent}{x}" for x in texts))
-
-
 def indentation(declaration: Declaration) -> str:
     """The white space before the facts of a declaration."""
     if declaration.facts:

@@ -6,7 +6,7 @@ from math import inf, isnan
 from operator import add, sub, truediv
 from typing import Any, NamedTuple
 
-from mindrun.numbers.expression import OPERATIONS, OPERATORS, Formula, fold
+from mindrun.numbers.expression import OPERATIONS, OPERATORS, TRUTHS, Formula, fold
 
 from mindlang.compiler.syntax import Comparison, Expression, When
 
@@ -76,7 +76,16 @@ CORNERS: dict[str, Callable[[float, float], float]] = {
 
 
 def _combined(symbol: str, left: Interval, right: Interval) -> Interval:
-    """All operations have their least and greatest value in corners, unless the divisor can be 0."""
+    """All operations have their least and greatest value in corners, unless the divisor can be 0.
+
+    A choice has both of its values.
+    """
+    if symbol in TRUTHS:
+        return UNIT_INTERVAL
+    if symbol == "when":
+        return left
+    if symbol == "otherwise":
+        return min(left[0], right[0]), max(left[1], right[1])
     if symbol == "/" and right[0] <= 0 <= right[1]:
         return UNBOUNDED
     corners = [CORNERS[symbol](a, b) for a, b in product(left, right)]

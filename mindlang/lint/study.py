@@ -15,7 +15,7 @@ from mindlang.compiler.beginning import Beginning, task_beginning
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label
 from mindlang.compiler.hierarchy import reverse_topological_order, topological_order, with_descendants
-from mindlang.compiler.model import Edge, End, Mind, Reward, Skill, Task, source_graph
+from mindlang.compiler.model import Edge, End, Mind, Part, Reward, Skill, Task, source_graph
 from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Declaration, Fact, Setting, When, expressions_in
@@ -90,7 +90,7 @@ class AnalysedWorld:
         return not all(battery.start and not battery.drain for battery in batteries)
 
 
-Conditional = Edge | Reward | End
+Conditional = Edge | Reward | End | Part[SensorKind]
 Condition = tuple[When, Conditional, AnalysedWorld]  # what it is a condition of, and the world in which it is
 
 
@@ -207,11 +207,16 @@ class Study:
         return AnalysedWorld(self, _named(tasks), True, True, not tasks or _charges(tasks))
 
     @property
+    def computed(self) -> "tuple[Part[SensorKind] | Edge, ...]":
+        """What may be said by an expression, under a condition: sensors, and edges."""
+        return (*self.mind.sensors, *(edge for _, edge in self.edges))
+
+    @property
     def conditions(self) -> Iterator[Condition]:
-        """Every condition of what skills send, of rewards and of ends."""
-        for _, edge in self.edges:
-            if edge.gate:
-                yield edge.gate.when, edge, self.any_world
+        """Every condition of what sensors read and skills send, of rewards and of ends."""
+        for sent in self.computed:
+            if sent.gate:
+                yield sent.gate.when, sent, self.any_world
         for task in self.mind.tasks:
             judging: tuple[Reward | End, ...] = (*task.rewards, *task.ends)
             for each in judging:

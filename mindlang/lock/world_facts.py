@@ -19,7 +19,7 @@ from mindrun.graph.skill_sets import genes, reachable
 from mindrun.graph.tasks import physics
 from mindrun.kinds.environment import module_beside
 from mindrun.kinds.functions.procedure import module_source
-from mindrun.kinds.registry import arguments, came_later, kinds, names
+from mindrun.kinds.registry import arguments, kinds, later_fields, names
 from mindrun.numbers.expression import TRUTHS, fold, leaves
 from mindrun.numbers.quantity import EXPRESSION, FARTHEST_UNITS, UNSAID, Quantity, Reference
 
@@ -28,8 +28,9 @@ from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.model import source_graph
 from mindlang.lock.training_world import LessonKey, TrainingWorld
 
-PRECEDENCE = {"or": -2, "and": -1, **dict.fromkeys(TRUTHS[:4], 0), "+": 1, "-": 1, "*": 2, "/": 2}
-NEGATION_PRECEDENCE, EXTREME_PRECEDENCE, ATOM_PRECEDENCE = 3, 4, 5
+LOOSEST_FIRST = (("otherwise",), ("when",), ("or",), ("and",), TRUTHS[:4], ("+", "-"), ("*", "/"))
+PRECEDENCE = {word: place for place, words in enumerate(LOOSEST_FIRST) for word in words}
+NEGATION_PRECEDENCE, EXTREME_PRECEDENCE, ATOM_PRECEDENCE = 7, 8, 9
 
 UNSAID_VALUES: tuple[Any, ...] = (
     [],
@@ -278,8 +279,8 @@ def _places(places: Sequence[Sequence[float]], meaning: Quantity | Reference | N
 def completed(noun: str, kind: Mapping[str, Any]) -> Mapping[str, Any]:
     """A kind as plain data, with the arguments that are left out of it where they are as by default."""
     cls = kinds(noun).get(kind["is"])
-    left_out = came_later(cls) if cls else ()
-    return {**kind, **{each.name: encode(each.default) for each in left_out if each.name not in kind}}
+    later = later_fields(cls) if cls else {}
+    return {**{name: encode(default) for name, default in later.items()}, **kind}
 
 
 def meaning_of(noun: str, kind: str, field: str) -> Quantity | Reference | None:

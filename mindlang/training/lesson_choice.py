@@ -1,18 +1,16 @@
 """The lessons to teach: those of a curriculum, those asked for, and what must be taught before them."""
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph, Lesson
-from mindrun.graph.weights import learners
 from mindrun.train import NotFoundError, RunError
 
 from mindlang import limits
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import did_you_mean, listed
-from mindlang.lock.status import needed_skills
 from mindlang.training.subject import Subject, open_subject, refuse_failed_below, refuse_frozen
 
 BOUNDS = {
@@ -83,7 +81,7 @@ def lessons_to_teach(
     With `force` also what is not due. `note` is told what is not taught, or taught otherwise than the source says.
     """
     subject = open_subject(path, compiled)
-    chosen = chosen_lessons(subject.graph, curriculum, skills, subject.trained)
+    chosen = chosen_lessons(subject.graph, curriculum, skills)
     if skills or force:
         refuse_frozen(subject, chosen)
     taught = frozen = 0
@@ -108,14 +106,10 @@ def lessons_to_teach(
         note(f"nothing to do: {which} have been taught (--force teaches them again)")
 
 
-def chosen_lessons(
-    graph: Graph, curriculum: str | None, skills: Sequence[str], known: Collection[str] = ()
-) -> tuple[Lesson, ...]:
-    """The lessons of a curriculum (the first where None), only those of `skills` where there are any.
+def chosen_lessons(graph: Graph, curriculum: str | None, skills: Sequence[str]) -> tuple[Lesson, ...]:
+    """The lessons of a curriculum (the first where None), only those of `skills` where there are any, in their order.
 
-    They stand as in the curriculum, but for those of skills that an earlier one needs and that are not `known`, which
-    have no weights that fit; those that teach one skill stay in order. A skill that the first curriculum does not teach
-    is looked for in the others. NotFoundError for an unknown name.
+    A skill that the first curriculum does not teach is looked for in the others. NotFoundError for an unknown name.
     """
     if not graph.lessons:
         raise RunError(
@@ -125,31 +119,10 @@ def chosen_lessons(
     if curriculum is not None and curriculum not in names:
         raise NotFoundError(f"there is no curriculum called {curriculum}", _suggestion(curriculum, names))
     if not skills:
-        return _by_need(graph, _of(graph, curriculum or names[0]), known)
+        return _of(graph, curriculum or names[0])
     searched = [curriculum] if curriculum else names
-    return _by_need(graph, [lesson for skill in skills for lesson in _teaching(graph, searched, skill)], known)
-
-
-def _by_need(graph: Graph, lessons: Sequence[Lesson], known: Collection[str]) -> tuple[Lesson, ...]:
-    """Lessons sorted so that each comes after those it waits for, else in their order; the first one ends a circle.
-
-    A lesson waits for those that teach what it needs, and for those before it that teach the same skill.
-    """
-    skills = {lesson: {*learners(graph, lesson)} for lesson in lessons}
-    needs = {lesson: needed_skills(graph, lesson) - {*known} for lesson in lessons}
-    left, ordered = list(dict.fromkeys(lessons)), list[Lesson]()
-    while left:
-        free = (
-            lesson
-            for place, lesson in enumerate(left)
-            if not any(needs[lesson] & skills[other] for other in left if other != lesson)
-            and not any(skills[lesson] & skills[other] for other in left[:place])
-        )
-        following = next(free, left[0])
-        left.remove(following)
-        ordered.append(following)
-        needs = {lesson: of - skills[following] for lesson, of in needs.items()}
-    return tuple(ordered)
+    asked = [lesson for skill in skills for lesson in _teaching(graph, searched, skill)]
+    return tuple(lesson for lesson in graph.lessons if lesson in asked)
 
 
 def _of(graph: Graph, curriculum: str) -> tuple[Lesson, ...]:

@@ -151,7 +151,7 @@ def _refuse_forgotten(run: RunFolder, earlier: Sequence[Retention]) -> None:
 def compare_genomes(run: RunFolder, scorer: Scorer, genomes: Genomes) -> WeightsComparison:
     """Two genomes on layouts that neither has seen: the mean of each; -inf where something was not finite."""
     seeds = layouts(run.manifest.seed, 0, run.manifest.lesson.generations, COMPARED_LAYOUTS, Purpose.COMPARISON)
-    old, new = mark(scorer, genomes, seeds).scores
+    old, new = mark(scorer, genomes, seeds, run.manifest.lesson.learner.lowest).scores
     return WeightsComparison(float(old), float(new))
 
 

@@ -54,7 +54,7 @@ def retentions(run: RunFolder, subject: Subject, genome: Genomes, workers: int) 
         rollout = rollout_for(*here, procedures=subject.folder, workers=workers)
         if keeps or (rollout.simulates and not rollout.procedures.slow):
             genomes = np.stack([np.concatenate([of[skill] for skill in changed]) for of in (known, learnt)])
-            before, after = mark(rollout, genomes, seeds).scores.tolist()
+            before, after = mark(rollout, genomes, seeds, other.learner.lowest).scores.tolist()
             if isfinite(before):
                 found.append(Retention(other, count, before, after))
     return found

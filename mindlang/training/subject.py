@@ -96,10 +96,15 @@ def begin_run(
     weights, refusals = trained_weights(subject.graph, subject.lock, needed)
     if refusals:
         first = [skill for skill in reversed(needed) if skill not in weights]
-        raise RunError(
-            f"{lesson.skill} cannot be taught yet: {listed(refusals, 'and')}",
-            f"first: {command_line('mindc', 'train', subject.shown, *first)}",
-        )
+        hint = f"first: {command_line('mindc', 'train', subject.shown, *first)}"
+        own = [each for each in subject.graph.lessons if each.curriculum == lesson.curriculum]
+        later = {each.skill for each in own if each.number > lesson.number}
+        if waiting := sorted(later.intersection(first)):
+            hint = (
+                f"it and {listed(waiting, 'and')} wait for each other: add a lesson that teaches one of them "
+                "without the other"
+            )
+        raise RunError(f"{lesson.skill} cannot be taught yet: {listed(refusals, 'and')}", hint)
     if not lesson.from_scratch:
         weights = weights | trained_weights(subject.graph, subject.lock, learners(subject.graph, lesson))[0]
     weights = weights | origin_weights(subject.graph, subject.lock, lesson, subject.shown)

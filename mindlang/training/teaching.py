@@ -208,8 +208,10 @@ def outcome(run: RunFolder, result: Result, kept: Kept, lock: str) -> list[str]:
     generations = "1 generation" if result["bred"] == 1 else f"{result['bred']} generations"
     if result["attempts"] > 1:
         generations += f" in {result['attempts']} attempts"
+    lowest = run.manifest.lesson.learner.lowest
+    where = "fresh layouts" if lowest == 1 else f"the lowest {100 * lowest:g}% of fresh layouts"
     learnt = (
-        f"{result['skill']} has learnt: {short_score(result['reevaluated'])} on fresh layouts after "
+        f"{result['skill']} has learnt: {short_score(result['reevaluated'])} on {where} after "
         f"{generations}, in {duration(result['seconds'])} at {speed(result)}"
     )
     if kept.is_new:

@@ -134,7 +134,7 @@ class Trial:
         RunError where the new ones have no score that is a finite number.
         """
         genomes = [self.genome] if old is None else [self.genome, old]
-        scores = mark(self.rollout, np.stack(genomes), self._layouts).scores
+        scores = mark(self.rollout, np.stack(genomes), self._layouts, self.lesson.learner.lowest).scores
         if not isfinite(scores[0]):
             why = f"{self.network.skill.name} with these weights: a reward or a command was not a finite number"
             raise RunError(why, f"look at the weights, and at the rewards of the task {self.lesson.task}")

@@ -73,6 +73,7 @@ SENSORS = {
     "drift": ["sensor drift is derivative of ball_bearing", "sensor drift is derivative of north"],
     "mood": ["memory mood is cell decay 0.9", "memory mood is cell decay 95%"],
     "north": ["sensor north is compass"],
+    "flight": ["sensor flight is turned of ball_bearing by 180 deg", "sensor flight is turned of north by -45 deg"],
     "near": ["sensor near is contact of ball", "sensor near is contact of coin"],
     "holding": ["sensor holding is held of ball", "sensor holding is held of coin"],
     "home": ["sensor home is inside of nest", "sensor home is inside of dock"],
@@ -87,6 +88,7 @@ SENSORS = {
     "level": [
         "sensor level is computed at 1 - charge",
         "sensor level is computed at least of charge moving",
+        "sensor level is computed at 1 - charge when moving > 0.5 and charge < 80% otherwise moving",
     ],
     "hungry": [
         "sensor hungry is latch of charge below 20% above 80%",
@@ -150,6 +152,12 @@ REWARDS = [
     ["rewards -0.1 * retreat from ball per tick", "rewards -0.1 * retreat from nest per tick"],
     ["rewards -0.4 * change of thrust per tick", "rewards -0.4 * change of thrust beyond 20% over 4 ticks per tick"],
     ["rewards -0.01 * claw per tick when charge > 0.5 and moving < 0.9 or holding > 0.5"],
+    ["rewards 0.1 * progress of ball toward nest per tick", "rewards 0.1 * progress of coin toward dock per tick"],
+    ["rewards 0.1 * advance of coin toward ball per tick", "rewards 0.1 * advance of ball toward dock per tick"],
+    ["rewards -0.1 * retreat of ball from nest per tick", "rewards -0.1 * retreat of coin from dock per tick"],
+    ["rewards -0.1 * distance of ball to nest per tick", "rewards -0.1 * distance of coin to ball per tick"],
+    ["rewards 5 on reach of nest by ball", "rewards 5 on reach of ball by coin", "rewards 5 on leave of dock"],
+    ["rewards -5 on leave of nest by ball", "rewards -5 on leave of dock by coin"],
     ["rewards 50 on delivery of ball", "rewards 50 on delivery of coin to nest"],
 ]
 GATES = [" when {} < 0.7", " when {} > 0.2 and 1 > 0.5 otherwise 0.3"]
@@ -255,8 +263,8 @@ def _declarations(rng: Random) -> list[list[str]]:
         blocks.append(_like(rng, next(block for block in blocks if block[0].startswith(f"skill {learners[0]} "))))
     if learners:
         lessons = [
-            f"teaches {skill} on {rng.choice(tasks)} for {rng.randint(1, 9)} generations"
-            + rng.choice(["", " from scratch"])
+            f"teaches {skill} on {rng.choice(tasks)} {rng.choice(['for', 'until score > 3 for at most'])} "
+            f"{rng.randint(1, 9)} generations" + rng.choice(["", " from scratch"])
             for skill in rng.sample(learners, rng.randint(0, len(learners)))
         ]
         learner = rng.choice(list(kinds("curriculum")))

@@ -59,7 +59,8 @@ def task(line: str, scene: str = "arena") -> str:
         (task("rewards 1 per tick for each p in eye when 1 / p > 2", "plain"), []),
         (task("rewards 1 / eye per tick", "plain"), []),  # it sees nothing, and reads 1
         (task("ends when 1 / eye > 9 and ear > 0.5"), ["1 / eye"]),
-        (f"{EYES}sensor both is computed at eye / ear\n", ["both"]),
+        (f"{EYES}sensor both is computed at eye / ear\n", ["eye / ear"]),
+        (f"{EYES}sensor both is computed at eye / ear when ear > 0 otherwise 0.1 / eye\n", ["0.1 / eye"]),
         (f"{EYES}sensor both is computed at eye / (ear + 1)\n", []),
     ],
 )

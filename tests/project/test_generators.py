@@ -22,7 +22,7 @@ from tests.sim.worlds import learner_kinds, random_world, robot_kinds
 DRAWN, DRAWN_LISTS = 200, 40  # minds, and lists of kinds of which ten are enough
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "event", "measure", "curriculum")
 OF_FILES = {"map"}  # which no text says by itself
-WIDTHS = {"s0": 1, "s1": 3, "m0": 1}  # of what sensors are made of
+WIDTHS, DIRECTIONS = {"s0": 1, "s1": 3, "m0": 1}, ("s0", "m0")  # of what sensors are made of
 ONE_VALUE = {("visit", "of"), ("change", "of")}  # the language has a single word for it
 
 
@@ -109,7 +109,7 @@ def strike_graphs(missing: Missing, *several: Iterator[Graph]) -> None:
 
 def test_every_kind_is_drawn_with_every_argument() -> None:
     missing = Missing()
-    virtual = VIRTUAL.flatmap(lambda kind: virtual_kinds(kind, WIDTHS)).map(lambda drawn: drawn[1])
+    virtual = VIRTUAL.flatmap(lambda kind: virtual_kinds(kind, WIDTHS, DIRECTIONS)).map(lambda drawn: drawn[1])
     strike_graphs(missing, environments())
     strike_drawn(missing, st.lists(physical_kinds(), min_size=24))
     for each in (virtual, learner_kinds(), robot_kinds()):

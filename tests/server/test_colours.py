@@ -28,7 +28,7 @@ TOKENS = {
     "ITS": FUNCTION,
     "ENVIRONMENT": "string.unquoted",
     **dict.fromkeys(("COMPUTED", "NUMBERED", "ORDERED", "GYMNASIUM"), KIND),
-    **dict.fromkeys(("FROM", "TO", "FACING", "AT"), KEY),
+    **dict.fromkeys(("FROM", "TO", "BY", "FACING", "AT"), KEY),
     **dict.fromkeys(("EXTREME", "AND", "OR", "TICK", "LEVEL"), WORD),
     **dict.fromkeys(("SIGN", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
 }
@@ -86,7 +86,8 @@ def _tokens(tree: Tree[Token], event: str) -> Iterator[tuple[Token, str]]:
             yield child, _of_name(tree, child, names, event)
             names += 1
         else:
-            yield child, WORD if tree.data == "facing" else TOKENS[child.type]
+            is_word = tree.data == "facing" or (tree.data, child.type) == ("argument", "BY")
+            yield child, WORD if is_word else TOKENS[child.type]
 
 
 def _of_name(tree: Tree[Token], token: Token, number: int, event: str) -> str:

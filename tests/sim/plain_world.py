@@ -7,8 +7,8 @@ import numpy as np
 import pymunk
 from mindrun.kinds.actuators.actuator import Gripper, Motor, Steering, Thruster, Wheel
 from mindrun.kinds.bodies.body import Car, Disc, Holonomic
-from mindrun.kinds.events.event import Collision, Delivery, Exhaustion, Reach, Success, Visit
-from mindrun.kinds.measures.measure import Advance, CommandChange, Forward, Progress, Retreat
+from mindrun.kinds.events.event import Collision, Delivery, Exhaustion, Leave, Reach, Success, Visit
+from mindrun.kinds.measures.measure import Advance, Apart, CommandChange, Forward, Progress, Retreat
 from mindrun.kinds.scenes.scene import Arena
 from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.sensors.claw import Contact, Held
@@ -61,6 +61,7 @@ class PlainWorld:
         self.body = PlainBody(self)
         self.drawn = run.drawn[len(run.drawn) - len(task.draws) :].tolist()
         self.walkers = PlainWalkers(self, run.turned, run.state.world.goal[:, 0].tolist())
+        self.there = [self.present(event) if isinstance(event, Leave) else set() for event in task.events]
 
     def patch(self, event):
         """Where the robot is on an event's board, if it has one."""
@@ -232,6 +233,7 @@ class PlainWorld:
         """One tick of physics, the battery, and what is carried; each actuator has kept a share of its force."""
         self.was = self.x, self.y
         self.far = [self.away(place) for place in self.places]
+        self.apart = [self.between(measure) for measure in self.task.measures]
         self.trail.append(self.was)
         state = self.body.step(acting, kept, cosine(self.angle), sine(self.angle), self.held, self.places)
         self.x, self.y, self.angle = state[:3]
@@ -256,6 +258,10 @@ class PlainWorld:
         for event, visited in zip(self.task.events, self.visited, strict=True):
             about = {i for i, thing in enumerate(self.things) if thing.name == getattr(event, "of", None)}
             match event:
+                case Reach(by=by) | Leave(by=by) if by or isinstance(event, Leave):
+                    before, now = self.there[len(found)], self.present(event)
+                    self.there[len(found)] = now
+                    found.append(len(now - before if isinstance(event, Reach) else before - now))
                 case Reach():
                     found.append(len(about & reached))
                 case Delivery(to=""):
@@ -272,6 +278,33 @@ class PlainWorld:
                 case Success():
                     found.append(0)  # `ends` knows
         return found
+
+    def present(self, event):
+        """Which things, by their rows, are at any of those that an event is about; −1 is the robot."""
+        return {k for k in self.named(event.by) or [-1] if any(self.is_at(k, i) for i in self.named(event.of))}
+
+    def is_at(self, k, i):
+        """Whether thing k, or the robot, is in a zone, or near enough to anything else."""
+        x, y, size = self.places[k] if k >= 0 else (self.x, self.y, 0.0)
+        if isinstance(self.things[i].kind, Zone | Power):
+            return self.inside(i, x, y)
+        dx, dy = x - self.places[i][0], y - self.places[i][1]
+        most = self.reach() + size / 2 + self.places[i][2] / 2
+        return dx * dx + dy * dy <= most * most
+
+    def named(self, name):
+        """The rows of the things of a name."""
+        return [i for i, thing in enumerate(self.things) if thing.name == name]
+
+    def between(self, measure):
+        """The least distance between two things that a measure is about; infinite where there are none."""
+        least = math.inf
+        for one in self.named(getattr(measure, "of", "")):
+            for other in self.named(getattr(measure, "to", "") or measure.thing):
+                dx, dy = (a - b for a, b in zip(self.places[one][:2], self.places[other][:2], strict=True))
+                square = dx * dx + dy * dy
+                least = square if square < least else least
+        return math.sqrt(least)
 
     def arrived(self, event, items):
         """How many items come into one of the zones of an event, and were not in one in the tick before."""
@@ -302,6 +335,13 @@ class PlainWorld:
         closed = {name: self.closed([i for i, its in enumerate(names) if its == name]) for name in names}
         found = []
         for i, measure in enumerate(self.task.measures):
+            if getattr(measure, "to", "") or (measure.thing and measure.of):
+                now = self.between(measure)
+                nearer = now if isinstance(measure, Apart) else self.apart[i] - now if now < math.inf else 0.0
+                nearer = max(0.0, nearer) if isinstance(measure, Advance) else nearer
+                nearer = max(0.0, -nearer) if isinstance(measure, Retreat) else nearer
+                found.append(nearer if now < math.inf else 0.0)
+                continue
             match measure:
                 case Forward():
                     dx, dy = self.x - self.was[0], self.y - self.was[1]

@@ -1,7 +1,7 @@
 """Hypothesis strategies for whole worlds: any hierarchy in any body, among anything, judged in any way."""
 
 from dataclasses import fields, replace
-from itertools import product
+from itertools import permutations, product
 from math import pi
 from typing import Any, get_args
 
@@ -11,9 +11,9 @@ from mindrun.graph.graph import Actuator, End, Failure, Graph, Lesson, Program, 
 from mindrun.graph.weights import genes
 from mindrun.kinds.actuators.actuator import Gripper, Lamp, Motor, Servo, Steering, Thruster, Wheel
 from mindrun.kinds.bodies.body import Box, Car, Disc, Holonomic
-from mindrun.kinds.events.event import Collision, Delivery, EventKind, Exhaustion, Reach, Success, Visit
+from mindrun.kinds.events.event import Collision, Delivery, EventKind, Exhaustion, Leave, Reach, Success, Visit
 from mindrun.kinds.learners import Learner
-from mindrun.kinds.measures.measure import Advance, CommandChange, Forward, MeasureKind, Progress, Retreat
+from mindrun.kinds.measures.measure import Advance, Apart, CommandChange, Forward, MeasureKind, Progress, Retreat
 from mindrun.kinds.registry import arguments, kinds
 from mindrun.kinds.scenes.scene import Arena, Plain, SceneKind
 from mindrun.kinds.things.map import Map
@@ -276,20 +276,28 @@ def _measures(draw: st.DrawFn, things: tuple[Thing, ...]) -> tuple[MeasureKind, 
     measures: list[MeasureKind] = [Forward(), CommandChange("thrust", 0.2, 4), CommandChange("thrust", 0.0, 1)]
     for name in named:
         measures += [Progress(name), Advance(name), Retreat(name)]
+    pairs = [*permutations(named, 2)]
+    for to, of in draw(st.lists(st.sampled_from(pairs), max_size=1)) if pairs else ():
+        measures += [Progress(to, of), Advance(to, of), Retreat(to, of), Apart(to, of)]
     return tuple(draw(st.lists(st.sampled_from(measures), unique=True, min_size=1, max_size=4)))
 
 
 @st.composite
 def _events(draw: st.DrawFn, scene: SceneKind, things: tuple[Thing, ...]) -> tuple[EventKind, ...]:
     events: list[EventKind] = [Collision(), Exhaustion(), Success()]
+    crossing: list[EventKind] = []
     for thing in things:
         if not thing.kind.is_obstacle:
             events.append(Reach(thing.name))
+            movers = [each.name for each in things if Reach.accepts("by", each.kind) and each is not thing]
+            crossing += [Reach(thing.name, by) for by in movers]
+            crossing += [Leave(thing.name, by) for by in ("", *movers) if thing.kind.is_area]
         if isinstance(thing.kind, Item | LooseBox | Ball):
             events.append(Delivery(thing.name))
             events += [Delivery(thing.name, zone.name) for zone in things if isinstance(zone.kind, Zone)]
     if isinstance(scene, Arena):
         events += [Visit("patch", 2.0), Visit("patch", 7.0)]
+    events += draw(st.lists(st.sampled_from(crossing), max_size=2)) if crossing else []
     return tuple(draw(st.lists(st.sampled_from(events), unique=True, max_size=5)))
 
 

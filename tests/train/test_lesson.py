@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from mindrun.graph.graph import Need
 from mindrun.train.attempt import (
     REEVALUATED_CANDIDATES,
@@ -27,7 +29,7 @@ from mindrun.train.lesson_state import (
     rung_at,
 )
 from mindrun.train.population import Population
-from mindrun.train.scoring import Purpose, layouts, mark
+from mindrun.train.scoring import Purpose, layouts, lowest_mean, mark
 
 from tests.train.climbing import LENGTH, Faulty, Flat, Results, Sphere, lesson
 
@@ -310,6 +312,22 @@ def test_a_fault_makes_a_genome_worst_whatever_it_scored() -> None:
     assert marks.each.tolist() == [[5.0] * 3, [-np.inf, 9.0, 9.0]]
     assert marks.faults == 1
     assert marks.ticks == 6
+
+
+@given(st.lists(st.integers(-9, 9), min_size=1, max_size=20), st.integers(1, 100))
+def test_the_lowest_share_is_the_mean_of_the_worst_layouts(scores: list[int], percent: int) -> None:
+    count = -(-len(scores) * percent // 100)
+    worst = sorted(scores)[:count]
+    assert lowest_mean(np.array([scores], np.float64), percent / 100)[0] == pytest.approx(sum(worst) / count)
+
+
+def test_a_lesson_ends_once_its_champion_does_so_well_and_not_before() -> None:
+    until = replace(lesson(100), until=Need("score", -8.0))
+    state, records = taught(Course(until, 1, UNKNOWN), Sphere())
+    whole, _ = taught(Course(lesson(100), 1, UNKNOWN), Sphere())
+    assert len(records) < 100
+    assert records[-1].reevaluated is not None
+    assert -8.0 - 4.0 < state.reevaluated < whole.reevaluated
 
 
 def test_a_fault_in_its_verdict_makes_an_attempt_the_worst() -> None:

@@ -20,7 +20,8 @@ _FORMS: Mapping[str, type[Struct]] = {
     "master": syntax.Master, "tick": syntax.Tick, "mind": syntax.Version, "unit": syntax.Unit, "number": syntax.Number,
     "reads": syntax.Reads, "gate": syntax.Gate, "chooses": syntax.Chooses, "stays": syntax.Stays,
     "contains": syntax.Contains, "varies": syntax.Varies, "fails": syntax.Fails, "lasts": syntax.Lasts,
-    "counts": syntax.Counts, "transmission": syntax.Transmits, "needs": syntax.Needs, "each": syntax.Each,
+    "counts": syntax.Counts, "transmission": syntax.Transmits, "needs": syntax.Needs, "until": syntax.Needs,
+    "each": syntax.Each,
     "when": syntax.When, "comparison": syntax.Comparison, "argument": Argument, "setting": Argument, "origin": Argument,
 }  # fmt: skip
 _OUTCOME = {"times": Amount, "event": Phrase, "when": syntax.When}
@@ -74,7 +75,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         return Name(str(token), self._span(token))
 
     TITLE = PART = WHOLE = TASK = COMPUTED = NUMBERED = ORDERED = GYMNASIUM = ENVIRONMENT = NAME
-    FROM = TO = FACING = AT = NAME
+    FROM = TO = BY = FACING = AT = NAME
 
     def COMPARE(self, token: Token) -> str:  # noqa: N802
         """A sign between two values."""
@@ -103,7 +104,8 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         return {"inside": parts[0]}
 
     def computed(self, meta: Any, parts: list[Any]) -> dict[str, Any]:
-        return {"phrase": Phrase(parts[0], (), parts[0].span), "at": parts[1]}
+        kind, at, gate = (*parts, None)[:3]
+        return {"phrase": Phrase(kind, (), kind.span), "at": at, "gate": gate}
 
     def numbered(self, meta: Any, parts: list[Any]) -> Phrase:
         """The numbers go as an argument that is called as its kind; a name before them is that of a part."""
@@ -140,10 +142,11 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     def teaches(self, meta: Any, parts: list[Any]) -> syntax.Teaches:
         skill, task, *rest = parts
         master = rest.pop(0) if isinstance(rest[0], Name) else None
+        until = rest.pop(0) if isinstance(rest[0], syntax.Needs) else None
         generations, *more = rest
         arguments = tuple(part for part in more if isinstance(part, Argument))
         needs = tuple(part for part in more if isinstance(part, syntax.Needs))
-        return syntax.Teaches(skill, task, master, generations, arguments, needs, self._span(meta))
+        return syntax.Teaches(skill, task, master, generations, arguments, needs, self._span(meta), until)
 
     def condition(self, meta: Any, parts: list[Any]) -> tuple[Any, ...]:
         return tuple(parts[::2])

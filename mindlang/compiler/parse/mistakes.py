@@ -23,6 +23,7 @@ class Mistake:
     example: str
 
 
+_SENDS = r"(?:drives|influences|sensor\s+\w+\s+is\s+computed)"  # what takes a condition and an otherwise
 _PART, _WHOLE, _VERB, _NOUN = ("|".join(words) for words in (PARTS, WHOLES, VERBS, NOUNS))
 _NAMED = f"{_NOUN}|reads|drives|influences|contains|teaches|master"  # what a name stands after
 _INVISIBLE = r"[\x00-\x08\x0e-\x1f\x7f\u00ad\u200b-\u200f\u202a-\u202e\u2060-\u2064\ufeff]+"  # characters
@@ -163,23 +164,24 @@ MISTAKES = (
     Mistake("no-if", r"^\s*reads\b.*?\s(?P<here>when|if|unless|while|else)\b",
         "What a skill reads, it reads always.", "A condition stands after drives or influences.",
         "reads eyes when holding > 0.5"),
-    Mistake("no-if", r"^\s*(?:drives|influences)\b.*?\s(?P<here>if|unless|while)\b",
+    Mistake("no-if", rf"^\s*{_SENDS}\b.*?\s(?P<here>if|unless|while)\b",
         "A condition stands after when.",
         "Write when instead of {here}, as in influences Grab at 1 when holding > 0.5.",
         "influences Seek if holding > 0.5"),
-    Mistake("no-if", r"^\s*(?:drives|influences)\b.*?\s(?P<here>else)\b",
+    Mistake("no-if", rf"^\s*{_SENDS}\b.*?\s(?P<here>else)\b",
         "What holds where a condition does not, stands after otherwise.", "Write otherwise instead of else.",
         "influences Seek at 1 when holding > 0.5 else 0"),
-    Mistake("no-if", r"^\s*(?:drives|influences)\b(?!.*\bwhen\b).*?\s(?P<here>otherwise)\b",
+    Mistake("no-if", rf"^\s*{_SENDS}\b(?!.*\bwhen\b).*?\s(?P<here>otherwise)\b",
         "Before otherwise stands a condition.",
         "Write when and a comparison before it: at 1 when holding > 0.5 otherwise 0.",
         "influences Seek at 1 otherwise 0"),
-    Mistake("no-if", r"^\s*(?:drives|influences)\b(?!.*\bwhen\b).*?\sat\s.*?(?P<here><=|>=|==|!=|<|>)",
+    Mistake("no-if", rf"^\s*{_SENDS}\b(?!.*\bwhen\b).*?\sat\s.*?(?P<here><=|>=|==|!=|<|>)",
         "A value after at is a number: it compares nothing.",
         "Compare after when: at 1 when holding > 0.5 otherwise 0; or let it grow with the reading: 10 * (x - 0.4).",
         "influences Seek at holding > 0.5"),
     Mistake("otherwise", r"^\s*(?:rewards|ends|succeeds)\b.*?(?P<here>otherwise)\b",
-        "Only what a skill sends has an otherwise.", "Write a line of its own, with the condition turned round.",
+        "Only what a sensor reads or a skill sends has an otherwise.",
+        "Write a line of its own, with the condition turned round.",
         "rewards 1 per tick when holding > 0.5 otherwise 0"),
     Mistake("cuts", r"^\s*drives\b.*?(?P<here>\bcuts\b.*)$",
         "Only an influence can be cut: a command of 0 is a command as any other.",
@@ -396,10 +398,10 @@ MISTAKES = (
     Mistake("missing-of", r"\b(?P<kind>procedure)\s+(?P<here>(?!from\b)[a-z][\w.]*)", "After {kind} comes from.",
         "Write {kind} from {here}.", "skill Avoid is procedure robot.avoid"),
     Mistake("missing-of",
-        r"\b(?P<kind>bearing|contact|held|inside|derivative|change|reach|delivery|visit)\s+"
+        r"\b(?P<kind>bearing|contact|held|inside|derivative|change|reach|leave|delivery|visit)\s+"
         r"(?P<here>(?!(?:of|range|dead_zone|size|per|on|when|at|to)\b)[a-z]\w*)",
         "After {kind} comes of.", "Write {kind} of {here}.", "sensor ball_bearing is bearing ball"),
-    Mistake("missing-of", r"\b(?P<kind>progress|advance)\s+(?P<here>(?!toward\b|per\b|on\b|to\b|towards\b)[a-z]\w*)",
+    Mistake("missing-of", r"\b(?P<kind>progress|advance)\s+(?P<here>(?!(?:of|towards?|per|on|to)\b)[a-z]\w*)",
         "After {kind} comes toward.", "Write {kind} toward {here}.", "rewards progress ball per tick"),
     Mistake("missing-at",
         r"^\s*(?P<noun>drives|influences)\s+(?P<name>[\w+.]+)\s+(?P<here>with|by|to|=|of)\s+(?P<rest>.*)$",
@@ -417,6 +419,9 @@ MISTAKES = (
         "teaches Avoid on Avoid 10 generations"),
     Mistake("missing-for", r"^\s*teaches\s+(?P<here>[A-Z][\w+]*\s+on\s+[A-Z][\w+]*)(?!.*\bfor\b)",
         "A lesson says for how long.", "Write teaches {here} for 1000 generations.", "teaches Avoid on Avoid"),
+    Mistake("missing-for", r"^\s*teaches\b.*\buntil\b.*?\bfor\s+(?P<here>\d.*)$",
+        "A lesson that goes on until something has an end all the same.", "Write for at most {here}.",
+        "teaches Seek on Seek until score > 300 for 10 generations"),
     Mistake("missing-task", r"^\s*teaches\s+(?P<here>[A-Z][\w+]*)\b(?!\+|\s+on\b)", "A lesson says on which task.",
         "Write teaches {here} on TASK for 1000 generations.", "teaches Avoid for 100 generations"),
     Mistake("order", r"^\s*teaches\b.*\bfor\b.*?\s(?P<here>under\s+[A-Z][\w+]*)", "The master stands before for.",
@@ -450,10 +455,10 @@ MISTAKES = (
     Mistake("for-each", r"^\s*rewards\s.*?\bfor\s+each\s+(?P<here>\w+)\s*(?:$|\bwhen\b)",
         "for each gives a reading a name.", "Write for each p in {here}.", "rewards p per tick for each eyes"),
     Mistake("missing-amount",
-        r"^\s*rewards\s+(?P<here>(?:reach|delivery|visit|collision|exhaustion)\b(?:(?!\s+(?:per|on|with)\b).)*)(?:\s+with\s.*)?$",
+        r"^\s*rewards\s+(?P<here>(?:reach|leave|delivery|visit|collision|exhaustion)\b(?:(?!\s+(?:per|on|with)\b).)*)(?:\s+with\s.*)?$",
         "A reward says how much.", "Write rewards 10 on {here}.", "rewards reach of ball"),
     Mistake("when-given",
-        r"^\s*rewards\s+\S+\s+(?P<here>for|at|when)\s+(?:reach|delivery|visit|collision|exhaustion)\b",
+        r"^\s*rewards\s+\S+\s+(?P<here>for|at|when)\s+(?:reach|leave|delivery|visit|collision|exhaustion)\b",
         "A reward is given on an event.", "Write on instead of {here}.", "rewards 10 for reach of ball"),
     Mistake("when-given", r"^\s*rewards\s+(?P<here>(?:(?!\s+(?:per|on)\b).)+)$", "A reward says when it is given.",
         "Add per tick, or on and an event.", "rewards 0.01 * forward"),
@@ -478,7 +483,7 @@ MISTAKES = (
         "drives claw at 2 holding"),
 )
 
-_HAPPENS = r"(?:\d+\s+)?(?:reach|delivery|visit|collision|exhaustion|success|stopped|fault)\b[^<>]*"
+_HAPPENS = r"(?:\d+\s+)?(?:reach|leave|delivery|visit|collision|exhaustion|success|stopped|fault)\b[^<>]*"
 STOP_MISTAKES = (  # of lines of a .break file
     Mistake("missing-when", r"^\s*stop\s+(?P<here>if|while|until|once|unless)\b", "A condition stands after when.",
         "Write when instead of {here}.", "stop if holding > 0.5"),

@@ -1,6 +1,6 @@
 """Curricula: who is taught what, under which master, for how long, and with whose weights a lesson begins."""
 
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, cast
 
@@ -40,7 +40,7 @@ def lessons(
     widths: Mapping[str, int],
     findings: Findings,
 ) -> Iterator[model.Lesson]:
-    """Every lesson of every curriculum that is well said, in order."""
+    """Every lesson of every curriculum that is well said; those that others wait for come first."""
     hopeless = {each.name for each in tasks if each.declaration.whole and not any(end.succeeds for end in each.ends)}
     context = _LessonContext(names, {skill.name: skill for skill in skills}, influences, hopeless, widths, findings)
     for name, declaration in names.declarations("curriculum"):
@@ -49,9 +49,9 @@ def lessons(
         learner = make_kind("curriculum", phrase, Scope(names, None), findings) if phrase else None
         taught = of_form(declaration.facts, Teaches)
         heirs = {fact.skill.text: origin.text for fact in taught if (origin := _origin(fact.arguments))}
-        for number, fact in enumerate(taught, 1):
-            if lesson := context.lesson(name, number, fact, learner, heirs):
-                yield lesson
+        said = (context.lesson(name, fact, learner, heirs) for fact in taught)
+        for number, lesson in enumerate(context.by_need([lesson for lesson in said if lesson]), 1):
+            yield replace(lesson, number=number)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,10 +65,8 @@ class _LessonContext:
     widths: Mapping[str, int]
     findings: Findings
 
-    def lesson(
-        self, curriculum: str, number: int, fact: Teaches, learner: Any, heirs: Mapping[str, str]
-    ) -> model.Lesson | None:
-        """The lesson that a fact says, the `number`th of the curriculum; None after reporting what is wrong with it.
+    def lesson(self, curriculum: str, fact: Teaches, learner: Any, heirs: Mapping[str, str]) -> model.Lesson | None:
+        """The lesson that a fact says; None after reporting what is wrong with it.
 
         `learner` is the curriculum's, None where that is wrong; `heirs` are the skills that begin with another's
         weights, with the names of these.
@@ -88,6 +86,7 @@ class _LessonContext:
             if origin:
                 self._check_origin(origin, self.skills[fact.skill.text], heirs)
         needs = self._needs(fact)
+        until = self._need(fact.until, fact.task.text, "until") if fact.until else None
         if learner is None or generations is None or len(self.findings.diagnostics) > before:
             return None
         return model.Lesson(
@@ -99,11 +98,47 @@ class _LessonContext:
             from_scratch=FROM in switches and not origin,
             with_subskills="with" in switches,
             learner=learner,
-            number=number,
             starts_from=origin.text if origin else "",
             needs=needs,
+            until=until,
             fact=fact,
         )
+
+    def by_need(self, lessons: Sequence[model.Lesson]) -> Iterator[model.Lesson]:
+        """Lessons in an order in which each comes after the first that teaches what acts in it or what it begins with.
+
+        Those that teach one skill stay in order. Of a circle the first stands where it is.
+        """
+        left = list(lessons)
+        taught = {lesson.fact: self._taught(lesson) for lesson in left}
+        needs = {lesson.fact: self._needed(lesson) - taught[lesson.fact] for lesson in left}
+        while left:
+            free = (
+                lesson
+                for place, lesson in enumerate(left)
+                if not any(needs[lesson.fact] & taught[other.fact] for other in left)
+                and not any(taught[lesson.fact] & taught[other.fact] for other in left[:place])
+            )
+            following = next(free, left[0])
+            left.remove(following)
+            needs = {fact: of - taught[following.fact] for fact, of in needs.items()}
+            yield following
+
+    def _taught(self, lesson: model.Lesson) -> set[str]:
+        names = self._below(lesson.skill) if lesson.with_subskills else {lesson.skill}
+        owners = (self.skills[name] for name in self._owners(names))
+        return {skill.name for skill in owners if not skill.frozen and skill.function and skill.function.learns}
+
+    def _needed(self, lesson: model.Lesson) -> set[str]:
+        return self._owners({*self._below(lesson.master), lesson.starts_from})
+
+    def _below(self, name: str) -> set[str]:
+        """A skill and all that it influences; nothing where it could not be read."""
+        return with_descendants(self.influences, self.skills.keys() & {name})
+
+    def _owners(self, names: Iterable[str]) -> set[str]:
+        """The skills whose weights these have; those that are not known are left out."""
+        return {self.skills[name].owner for name in names if name in self.skills} & self.skills.keys()
 
     def _switches(self, written: Sequence[Argument]) -> set[str]:
         """The switches that a lesson says; a word after one that is not its own is reported, but for a skill's name."""
@@ -137,22 +172,23 @@ class _LessonContext:
             self.findings.refuse_again("repeated-fact", said, message, "Say it once.")
         return tuple(filter(None, (self._need(need, fact.task.text) for need in fact.needs)))
 
-    def _need(self, need: Needs, task: str) -> Need | None:
-        """One need of a lesson on a task; None after reporting what is wrong with it."""
+    def _need(self, need: Needs, task: str, word: str = "needs") -> Need | None:
+        """What a lesson on a task needs, or goes on until; None after reporting what is wrong with it."""
         before, (measure, span) = len(self.findings.diagnostics), (need.measure.text, need.measure.span)
         if measure not in MEASURED:
-            hint = self.findings.suggest(measure, MEASURED) or "Write needs score > 300, or needs success > 50%."
-            self.findings.error("unknown-need", span, f"A lesson cannot need {measure}.", hint)
+            hint = self.findings.suggest(measure, MEASURED) or f"Write {word} score > 300, or {word} success > 50%."
+            message = f"A lesson cannot {'need' if word == 'needs' else 'go on until'} {measure}."
+            self.findings.error("unknown-need", span, message, hint)
             return None
         above = convert(need.above, MEASURED[measure], self.findings)
         if need.compare != ">":
-            message = f"A lesson needs more than a number: the greater {measure} is, the better."
-            self.findings.error("needs-more", need.span, message, f"Write needs {measure} > {need.above.span.text}.")
+            message = f"After {word} {measure} stands > and a number: the greater {measure} is, the better."
+            self.findings.error("needs-more", need.span, message, f"Write {word} {measure} > {need.above.span.text}.")
         if measure == "success" and task in self.hopeless:
-            hint = "Add a line to it: succeeds on 5 delivery of red; or write needs score > 300."
+            hint = f"Add a line to it: succeeds on 5 delivery of red; or write {word} score > 300."
             self.findings.error("needs-success", need.span, f"{task} does not say what a success is.", hint)
         if measure == "success" and above is not None and above >= 1:
-            hint = "Write a share that can be exceeded: needs success > 95%."
+            hint = f"Write a share that can be exceeded: {word} success > 95%."
             self.findings.error("needs-more", need.above.span, "More than all runs cannot succeed.", hint)
         if above is None or len(self.findings.diagnostics) > before:
             return None

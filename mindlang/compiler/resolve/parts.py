@@ -9,15 +9,16 @@ from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.registry import kinds
 from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.sensors.computed import Computed
+from mindrun.kinds.sensors.sensor import directions
 from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
 from mindlang.compiler.hierarchy import circles, reverse_topological_order
 from mindlang.compiler.model import Part, source_graph
 from mindlang.compiler.names import Names
-from mindlang.compiler.resolve.expressions import Visible, resolve_expression
+from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
-from mindlang.compiler.syntax import Declaration, Fact, Name, verb_of
+from mindlang.compiler.syntax import Declaration, Fact, Header, Name, verb_of
 
 MOST_READINGS = 20_000
 ONE_LINE = "All that there is to say of it stands in its one line; set the fact below the skill or task it belongs to."
@@ -65,12 +66,11 @@ def said_once(
 def sensors(names: Names, findings: Findings) -> Parts:
     """The sensors with their widths, as they are declared; those that are computed from themselves are reported."""
     plain = {sensor.name: sensor for sensor in resolve_parts("sensor", names, findings)}
-    formulas = {name: header.at for name, each in names.declarations("sensor") if (header := each.header).at}
+    formulas = {name: header for name, each in names.declarations("sensor") if (header := each.header).at}
     widths = _widths(plain, [*formulas, *names.of("memory")])
     visible = Visible(widths, unread=names.unread, made_of="numbers, sensors and memories")
-    for name, at in formulas.items():
-        computed = Computed(resolve_expression(at, visible, findings).formula)
-        plain[name] = Part(name, computed, names.table["sensor"][name].header.name.span)
+    for name, header in formulas.items():
+        plain[name] = _computed(header, visible, findings)
     found = tuple(replace(plain[name], width=widths[name]) for name in names.of("sensor") if name in plain)
     for circle in circles(source_graph(found)):
         message = f"A sensor is derived from itself: {' → '.join([*circle, circle[0]])}."
@@ -79,13 +79,26 @@ def sensors(names: Names, findings: Findings) -> Parts:
         widest = max(found, key=lambda sensor: sensor.width)
         message = f"With these {widest.width} the mind has {readings} readings."
         findings.error("too-many-readings", widest.span, message, f"A mind takes {MOST_READINGS}: leave some out.")
+    around = directions({sensor.name: sensor.kind for sensor in found})
     for sensor in found:
-        if sensor.name not in formulas and (flaw := sensor.kind.flaw(widths)):
+        if sensor.name not in formulas and (flaw := sensor.kind.flaw(widths, around)):
             header = names.table["sensor"][sensor.name].header
             arguments = header.phrase.arguments if header.phrase else ()
             said = (each.value.span for each in arguments if each.key.text == flaw.field)
             findings.error(flaw.code, next(said, header.span), flaw.message, flaw.hint)
     return found
+
+
+def _computed(header: Header, visible: Visible, findings: Findings) -> Part[Any]:
+    """The sensor that is computed at an expression, or at one of two."""
+    at, gate = resolve_expressions((header.at, header.gate), visible, findings)
+    formula = at.formula if at else ()
+    if gate and gate.otherwise:
+        formula = (*formula, *gate.when.formula, ("when", 0), *gate.otherwise.formula, ("otherwise", 0))
+    elif gate:
+        hint = "Add what it reads where the condition does not hold: otherwise 0."
+        findings.error("no-otherwise", gate.span, f"{header.name.text} reads nothing in other ticks.", hint)
+    return Part(header.name.text, Computed(formula), header.name.span, at=at, gate=gate)
 
 
 def _widths(sensors: Mapping[str, Part[Any]], of_one: Iterable[str]) -> dict[str, int]:

@@ -4,16 +4,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Annotated
 
-from mindrun.graph.skill_sets import learners
-
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import Declaration, Fact, File, Number, Teaches, of_form
+from mindlang.compiler.syntax import Declaration, Fact, File, Number
 from mindlang.editing import insertion
 from mindlang.editing.project import EditError, MindChange, Project
-from mindlang.lock.status import needed_skills
 
 
 def add(
@@ -26,7 +23,7 @@ def add(
     """Add declarations or, with --to, facts to a declaration.
 
     They are said as in a file, a line each. A declaration stands below the last of its noun, a fact below the
-    last of its verb, a lesson above the first that needs its skill.
+    last of its verb.
 
     Example: mindc edit add collect.mind "skill Wait is rule" \\
       "drives left_wheel at 1/2" "drives right_wheel at 1/2"
@@ -34,7 +31,7 @@ def add(
     said = [line.strip() for text in lines for line in text.splitlines()]
     if to:
         declaration = project.declared(to, noun, among=next(filter(None, map(insertion.owners, said)), insertion.NOUNS))
-        return MindChange(tuple(_facts(project, declaration, _read_facts(declaration, said))))
+        return MindChange(tuple(_facts(declaration, _read_facts(declaration, said))))
     return MindChange(tuple(_declarations(project, _read(said))))
 
 
@@ -63,26 +60,11 @@ def _indented(declaration: Declaration) -> list[str]:
     return [*lines[:above], *(f"{insertion.INDENT}{line}" for line in lines[above:])]
 
 
-def _facts(project: Project, declaration: Declaration, said: Sequence[Fact]) -> Iterator[Splice]:
-    """Each verb's facts below those that there are, but a lesson above the first one that needs its skill."""
-    needing = {fact: _first_needing(project, declaration, fact) for fact in said if isinstance(fact, Teaches)}
-    yield from (insertion.above_fact(place, insertion.commented(fact)) for fact, place in needing.items() if place)
-    said = [fact for fact in said if not (isinstance(fact, Teaches) and needing[fact])]
+def _facts(declaration: Declaration, said: Sequence[Fact]) -> Iterator[Splice]:
+    """Each verb's facts below those that there are."""
     for form in insertion.FACTS:
         if texts := [text for fact in said if isinstance(fact, form) for text in insertion.commented(fact)]:
             yield insertion.below_siblings(declaration, form, texts)
-
-
-def _first_needing(project: Project, curriculum: Declaration, lesson: Teaches) -> Teaches | None:
-    """The first lesson of a curriculum that needs the skill of a new one, where none before it teaches that."""
-    skill, graph = lesson.skill.text, project.graph
-    lessons = [each for each in graph.lessons if each.curriculum == curriculum.header.name.text]
-    for fact, each in zip(of_form(curriculum.facts, Teaches), lessons, strict=True):
-        if skill in learners(graph, each):
-            return None
-        if skill in needed_skills(graph, each):
-            return fact
-    return None
 
 
 def _read_facts(declaration: Declaration, lines: list[str]) -> tuple[Fact, ...]:

@@ -1,7 +1,8 @@
-"""A lesson that comes before those of skills that it needs.
+"""Lessons that wait for each other, of which none can come first.
 
-A lesson runs the whole hierarchy below its master, and a skill that has not been taught yet has no weights; nor can a
-lesson begin `from` a skill without weights. `mindc train` teaches these first where it can, so say it in this order.
+Lessons stand in any order: those are taught first that teach what acts in others, or what others begin `from`. A lesson
+under a master runs the whole hierarchy below it, so it waits for all of these. Where that closes a circle, none of them
+has the weights that it needs: let one lesson teach a skill without the others.
 """
 
 from collections import Counter
@@ -10,22 +11,19 @@ from collections.abc import Mapping, Sequence
 from mindlang.compiler.diagnostic import Label
 from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.model import Lesson
-from mindlang.lint.examples import LEARNS, LESSON, REWARDED, TURN
+from mindlang.lint.examples import LEARNS, LESSON, REWARDED
 from mindlang.lint.study import Finding, Found, Study
 from mindlang.lock.status import mismatches
 
 LIVE = "master Live\nskill Live is mlp\n  reads eye\n  influences Go\n  drives left_wheel\n"
 HIERARCHY = f"{LIVE}{LEARNS}{REWARDED}curriculum School is genetic\n"
 SECOND_LESSON = "  teaches Live on Course for 10 generations\n"
+LESSON_AT_WORK = "  teaches Go on Course under Live for 10 generations\n"
 GOOD = (
-    HIERARCHY + LESSON + SECOND_LESSON,
+    HIERARCHY + SECOND_LESSON + LESSON,
     f"{HIERARCHY}  teaches Live on Course for 10 generations with subskills\n{LESSON}",
 )
-LESSON_FROM_GO = "  teaches Turn on Course for 10 generations from Go\n"
-BAD = (
-    HIERARCHY + SECOND_LESSON + LESSON,
-    HIERARCHY.replace("task Course", f"{TURN}task Course") + LESSON_FROM_GO + LESSON,
-)
+BAD = (HIERARCHY + SECOND_LESSON + LESSON_AT_WORK,)
 
 
 def check(study: Study) -> Found:
@@ -63,9 +61,11 @@ def _early(study: Study, lessons: Sequence[Lesson], first: Mapping[str, int]) ->
         if lesson.starts_from and first.get(origin := study.skills[lesson.starts_from].owner, -1) > needed:
             needed, skill, role = first[origin], origin, "it begins with"
         if needed > place and not _has_weights(study, skill):
-            message = f"{lesson.skill} stands before {skill}, which {role} and has no weights yet."
+            message = f"{lesson.skill} waits for {skill}, which {role}, and {skill} waits for {lesson.skill}."
             label = Label(lessons[needed].fact.span, f"{skill} is taught here")
-            yield Finding(lesson.fact.span, message, f"Move this line below the lesson of {skill}.", (label,))
+            yield Finding(
+                lesson.fact.span, message, f"Add a lesson that teaches {skill} without {lesson.skill}.", (label,)
+            )
 
 
 def _has_weights(study: Study, name: str) -> bool:

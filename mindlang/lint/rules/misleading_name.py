@@ -8,7 +8,10 @@ from mindrun.kinds.registry import kinds
 
 from mindlang.lint.study import Finding, Found, Study, name_words
 
-EVERYDAY = {"arena", "battery", "cell", "contact", "disc", "genetic", "held", "inside", "item", "plain", "rule", "zone"}
+EVERYDAY = {
+    "arena", "battery", "cell", "contact", "disc", "genetic", "held", "inside", "item", "plain", "rule", "turned",
+    "zone",
+}  # fmt: skip
 GOOD = """
 sensor charge is battery
 sensor battery_drift is derivative of charge

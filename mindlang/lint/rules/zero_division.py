@@ -25,6 +25,7 @@ GOOD = (
     f"{BEGIN}  ends when eye > 10% and 0.01 / eye > 9%\n",
     f"{BEGIN}  rewards 1 / eye per tick when eye >= 5%\n",
     f"{RATIO}sensor ratio is computed at near / (near + far + 0.01)\n",
+    f"{RATIO}sensor ratio is computed at near / far when far > 0.1 otherwise 0\n",
 )
 BAD = (
     f"{READS}  drives left_wheel at 0.1 / eye\n",
@@ -39,21 +40,18 @@ HINT = "Add a little to it, as in 1 / (ahead + 0.01), or say when: 1 / ahead per
 
 
 def check(study: Study) -> Found:
-    for part in study.mind.sensors:
-        if part.kind.formula and _has_zero(divisors(part.kind.formula, study.any_world.reading)):
-            yield Finding(part.span, MESSAGE, HINT)
     for value, alternatives, of, world in _values(study):
         if any(_divides_by_zero(value, all_, of, world) for all_ in alternatives):
             yield Finding(value.span, MESSAGE, HINT)
 
 
 def _values(study: Study) -> Iterator[tuple[Expression, Alternatives, Conditional, AnalysedWorld]]:
-    """The expressions of edges, rewards and comparisons, each with the alternatives in which it counts."""
-    for _, edge in study.edges:
-        if edge.at:
-            yield edge.at, edge.gate.when.alternatives if edge.gate else ALWAYS, edge, study.any_world
-        if edge.gate and edge.gate.otherwise:
-            yield edge.gate.otherwise, _opposite(edge.gate.when), edge, study.any_world
+    """The expressions of sensors, edges, rewards and comparisons, each with the alternatives in which it counts."""
+    for sent in study.computed:
+        if sent.at:
+            yield sent.at, sent.gate.when.alternatives if sent.gate else ALWAYS, sent, study.any_world
+        if sent.gate and sent.gate.otherwise:
+            yield sent.gate.otherwise, _opposite(sent.gate.when), sent, study.any_world
     for task in study.mind.tasks:
         for reward in task.rewards:
             alternatives = reward.when.alternatives if reward.when else ALWAYS

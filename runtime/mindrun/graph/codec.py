@@ -7,7 +7,7 @@ from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from mindrun.errors import BundleError, MindError
-from mindrun.kinds.registry import bases, came_later, find_kind, is_left_out, names
+from mindrun.kinds.registry import bases, find_kind, later_fields, names
 from mindrun.numbers.quantity import fits
 
 PLAIN = (bool, int, float, str)
@@ -26,13 +26,17 @@ class CodecError(ValueError):
 
 
 def encode(value: object) -> Any:
-    """A dataclass, or any part of one, as dicts, lists, strings and numbers; a kind names itself under "is"."""
+    """A dataclass, or any part of one, as dicts, lists, strings and numbers; a kind names itself under "is".
+
+    A field that came later is left out where it has its default, so that what is older than it keeps its bytes.
+    """
     if isinstance(value, tuple):
         return [encode(part) for part in value]
     if not is_dataclass(value):
         return value
-    said = ((field, getattr(value, field.name)) for field in fields(value))
-    data = {field.name: encode(part) for field, part in said if not (is_left_out(field) and part == field.default)}
+    later = later_fields(type(value))
+    said = {field.name: getattr(value, field.name) for field in fields(value)}
+    data = {name: encode(each) for name, each in said.items() if name not in later or each != later[name]}
     name = names().get(type(value))
     return data if name is None else {"is": name, **data}
 
@@ -106,11 +110,10 @@ def _kind(noun: str, data: Any, where: str) -> Any:
 def _fields(cls: type[Any], data: Any, where: str) -> Any:
     hints, name = _hints(cls), names().get(cls)
     expected = hints.keys() | ({"is"} if name else set())
-    optional = {field.name for field in came_later(cls)}
-    if not isinstance(data, Mapping) or not expected - optional <= data.keys() <= expected or data.get("is") != name:
+    required = expected - later_fields(cls).keys()
+    if not isinstance(data, Mapping) or not required <= data.keys() <= expected or data.get("is") != name:
         raise CodecError(f"{where} is not a {cls.__name__}")
-    said = {name: hint for name, hint in hints.items() if name in data}
-    return cls(**{name: decode(hint, data[name], f"{where}.{name}") for name, hint in said.items()})
+    return cls(**{name: decode(hint, data[name], f"{where}.{name}") for name, hint in hints.items() if name in data})
 
 
 def _plain(hint: Any, data: Any, where: str) -> Any:

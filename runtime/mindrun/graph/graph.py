@@ -236,7 +236,7 @@ class Task:
 
 @dataclass(frozen=True, slots=True)
 class Need:
-    """A need of a lesson, to be met on fresh layouts: a mean `score` or a share of `success` `above` a number."""
+    """A need of a lesson, or its end, on fresh layouts: a mean `score` or a share of `success` `above` a number."""
 
     measure: Literal["score", "success"]
     above: float
@@ -253,7 +253,8 @@ class Lesson:
     With `with_subskills`, all that learn below the skill and are not frozen learn with it, as one genome. `number` is
     its place in its curriculum, from 1; 0 in what was made before lessons had one. One that `starts_from` another skill
     begins with a copy of its weights. One with `needs` has failed where its last attempt does not meet them all: it
-    ends with the first attempt that does, and what has failed is not taught.
+    ends with the first attempt that does, and what has failed is not taught. One with `until` ends an attempt once its
+    champion does so well, before it has had its generations.
     """
 
     curriculum: str
@@ -267,6 +268,7 @@ class Lesson:
     number: int = 0
     starts_from: str = ""
     needs: tuple[Need, ...] = ()
+    until: Need | None = left_out(None)
 
     @property
     def name(self) -> str:

@@ -9,8 +9,9 @@ from mindrun.graph.draws import MAX_VALUES
 from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task, varied_quantity
 from mindrun.graph.tasks import varied_kind
 from mindrun.kinds.registry import arguments
+from mindrun.kinds.sensors.sensor import directions
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ROBOT
-from mindrun.numbers.expression import OPERATORS, is_condition, is_valid_program, leaves
+from mindrun.numbers.expression import CHOICES, OPERATORS, is_condition, is_valid_program, leaves
 from mindrun.numbers.quantity import COORDINATE, NUMBER, THING, UNSAID, fits
 
 NAME = re.compile(r"[^\W\d_]\w*([+.]\w+)*")
@@ -69,12 +70,13 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
     """Readings lie side by side, and each sensor has as many as its kind."""
     start = 0
     widths = {memory.name: 1 for memory in graph.memories} | {sensor.name: sensor.width for sensor in graph.sensors}
+    around = directions({sensor.name: sensor.kind for sensor in graph.sensors})
     for sensor in graph.sensors:
         shape = sensor.kind.shape
         width = widths.get(sensor.kind.source) if shape is None else prod(shape)
         if sensor.width != width or sensor.start != start or sensor.width < 1:
             yield f"sensor {sensor.name} has not the readings of its kind"
-        elif not set(sensor.kind.sources) <= widths.keys() or sensor.kind.flaw(widths):
+        elif not set(sensor.kind.sources) <= widths.keys() or sensor.kind.flaw(widths, around):
             yield f"sensor {sensor.name} cannot be computed"
         start += sensor.width
     try:
@@ -229,7 +231,8 @@ def _computes(
     program: Program, readings: Container[int], measures: int = 0, each: bool = False, commands: int = 0, draws: int = 0
 ) -> bool:
     """True if a program has a value, and uses only these readings, measures, commands and, in a loop, the reading."""
-    words = {*OPERATORS, "negate", "number", "reading", "measure", "command", "drawn"} | ({"each"} if each else set())
+    words = {*OPERATORS, "negate", "number", "reading", "measure", "command", "drawn"} - {*CHOICES}
+    words |= {"each"} if each else set()
     return (
         is_valid_program(program)
         and {word for word, _ in program} <= words

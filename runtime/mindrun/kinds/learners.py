@@ -5,7 +5,7 @@ from itertools import accumulate
 from math import sqrt
 from typing import Annotated
 
-from mindrun.kinds.registry import kind
+from mindrun.kinds.registry import kind, left_out
 from mindrun.numbers.quantity import COUNT, GENERATIONS, RATIO, Quantity
 
 OCTAVES = Quantity("a whole number up to 8", {"": 1.0}, low=0, high=8, whole=True)
@@ -33,7 +33,9 @@ class Genetic:
     that share of the task's ticks, and comes to whole ones over one length between: each of the three has a third of
     the ticks, and whatever is compared in the end was tried in whole runs. A lesson that changes skills of earlier ones
     and `keeps` a share of what these scored has failed where one of them has less, on the same fresh layouts before and
-    after. A lesson may say any of these for itself.
+    after. With `lowest` the score of a genome is the mean of that share of its layouts, those on which it does worst:
+    of 8 layouts, 25% are the worst two, 1% the worst one; so it is wherever genomes of the lesson are compared.
+    A lesson may say any of these for itself.
     """
 
     population: Annotated[int, POPULATION] = 100
@@ -48,6 +50,7 @@ class Genetic:
     rungs: Annotated[int, RUNGS] = 0
     short: Annotated[float, SHARE] = 1.0
     keeps: Annotated[float, RATIO] = 0.0
+    lowest: Annotated[float, SHARE] = left_out(1.0)
 
     def standstill(self, weights: int, generations: int) -> str:
         """A sentence on why so many generations find nothing beyond the first genomes; empty if they may.
@@ -88,7 +91,7 @@ class EvolutionStrategy:
     Every generation, `population` genomes are drawn around one, a normal step of spread `mutation` away in all their
     weights, and scored on the same `layouts` worlds. Then that one moves to the mean of the best quarter of them,
     weighted by rank, in which the luck of single runs cancels out. From scratch it begins with the best of `founders`
-    random genomes. `attempts`, `patience`, `rungs`, `short` and `keeps` are those of `genetic`.
+    random genomes. `attempts`, `patience`, `rungs`, `short`, `keeps` and `lowest` are those of `genetic`.
     """
 
     population: Annotated[int, POPULATION] = 50
@@ -100,6 +103,7 @@ class EvolutionStrategy:
     rungs: Annotated[int, RUNGS] = 0
     short: Annotated[float, SHARE] = 1.0
     keeps: Annotated[float, RATIO] = 0.0
+    lowest: Annotated[float, SHARE] = left_out(1.0)
 
     def standstill(self, weights: int, generations: int) -> str:
         """A sentence on why so many generations come nowhere; empty if they may."""

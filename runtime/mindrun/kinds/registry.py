@@ -2,7 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Callable, Mapping
-from dataclasses import MISSING, Field, dataclass, field, fields
+from dataclasses import MISSING, dataclass, field, fields
 from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
@@ -37,11 +37,6 @@ SHAPES: Mapping[Any, Shape] = {
 def left_out(default: Any) -> Any:
     """A dataclass's field that is left out of plain data where it has this value: what came later than the files."""
     return field(default=default, metadata={"left out": True})
-
-
-def is_left_out(of: Field[Any]) -> bool:
-    """True if plain data has a field only where its value is not the default."""
-    return "left out" in of.metadata
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,11 +95,6 @@ def _import_all(room: str) -> None:
         import_module(f"{room}.{module}")
 
 
-def came_later(cls: type[Any]) -> tuple[Field[Any], ...]:
-    """The fields of a dataclass that are left out of its plain data where they are as by default."""
-    return tuple(each for each in fields(cls) if is_left_out(each))
-
-
 def base(noun: str) -> Callable[[type[T]], type[T]]:
     """Register a class as the base of the kinds of a noun: an annotation with it takes each of them."""
 
@@ -134,6 +124,11 @@ def arguments(cls: type[Any]) -> tuple[Argument, ...]:
             for f in sorted(fields(cls), key=lambda field: field.kw_only is True)
         )
     return _arguments[cls]
+
+
+def later_fields(cls: type[Any]) -> dict[str, Any]:
+    """The defaults of a dataclass's fields that are left out of its plain data where they have them, by name."""
+    return {each.name: each.default for each in fields(cls) if "left out" in each.metadata}
 
 
 def named_arguments(cls: type[Any]) -> tuple[Argument, ...]:

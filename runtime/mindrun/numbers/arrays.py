@@ -19,6 +19,11 @@ def _known(holds: Any, left: Any, right: Any) -> Any:
     return np.where(np.isnan(left) | np.isnan(right), np.nan, holds)[()]
 
 
+def _when(value: Any, holds: Any) -> Any:
+    chosen = np.where((holds > 0) & np.isfinite(value), value, np.nan)
+    return np.where(holds == 0, np.inf, chosen)[()]
+
+
 def least(left: Any, right: Any) -> Any:
     """The smaller of two numbers; NaN where one of them is NaN."""
     return np.where((right < left) | np.isnan(right), right, left)[()]
@@ -35,4 +40,6 @@ OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
     "<=": lambda left, right: _known(left <= right, left, right),
     ">": lambda left, right: _known(left > right, left, right),
     ">=": lambda left, right: _known(left >= right, left, right),
+    "when": _when,
+    "otherwise": lambda value, other: np.where(value == np.inf, other, value)[()],
 }  # fmt: skip

@@ -2,7 +2,7 @@
 
 from array import array
 from collections.abc import Callable, Iterable, Mapping
-from math import copysign, inf, isnan, nan
+from math import copysign, inf, isfinite, isnan, nan
 from operator import add, ge, gt, le, lt, mul, sub
 from typing import Any, TypeVar
 
@@ -11,12 +11,15 @@ T = TypeVar("T")
 # An expression in postfix order: ("number", x), ("reading", index), ("each", 0), ("measure", index into the task's
 # measures), ("command", index of an actuator), ("drawn", index of a number that the task draws), or (operator, 0) with
 # one of OPERATORS or negate. A condition is one that ends in one of TRUTHS: 1 where it holds, 0 where not, NaN where
-# nobody can know.
+# nobody can know. One of two values is (value, condition, "when", other value, "otherwise"): "when" makes NaN of what
+# is not finite and of an unknown condition, and inf, for which "otherwise" takes the other value, where the condition
+# does not hold.
 Program = tuple[tuple[str, float | int], ...]
 
 Formula = tuple[tuple[str, float | int | str], ...]  # a program in which readings stand by their names
 TRUTHS = ("<", "<=", ">", ">=", "and", "or")
-OPERATORS = frozenset({"+", "-", "*", "/", "least", "greatest", *TRUTHS})
+CHOICES = ("when", "otherwise")
+OPERATORS = frozenset({"+", "-", "*", "/", "least", "greatest", *TRUTHS, *CHOICES})
 
 
 def fold(
@@ -59,7 +62,7 @@ def is_condition(program: Program) -> bool:
     return is_valid_program(program) and program[-1][0] in TRUTHS
 
 
-def is_valid_program(program: Program) -> bool:
+def is_valid_program(program: Iterable[tuple[str, Any]]) -> bool:
     """True if a program never takes from an empty stack and leaves exactly one value."""
     height = 0
     for operator, _ in program:
@@ -103,6 +106,10 @@ def _greatest(left: float, right: float) -> float:
     return right if right > left or isnan(right) else left
 
 
+def _when(value: float, holds: float) -> float:
+    return inf if holds == 0 else value if holds > 0 and isfinite(value) else nan
+
+
 def _truth(compare: Callable[[float, float], bool]) -> Callable[[float, float], float]:
     """A comparison as 1, 0 or NaN."""
     return lambda left, right: nan if isnan(left) or isnan(right) else float(compare(left, right))
@@ -112,4 +119,5 @@ OPERATIONS: Mapping[str, Callable[[float, float], float]] = {
     "+": add, "-": sub, "*": mul, "/": _quotient,
     "least": _least, "greatest": _greatest, "and": _least, "or": _greatest,
     "<": _truth(lt), "<=": _truth(le), ">": _truth(gt), ">=": _truth(ge),
+    "when": _when, "otherwise": lambda value, other: other if value == inf else value,
 }  # fmt: skip

@@ -3,17 +3,18 @@
 Plain functions, which `sim/` compiles: those of sensors that are computed call them, too.
 """
 
-from math import isnan, nan
+from math import inf, isfinite, isnan, nan
 from typing import Any
 
 NUMBER, READING, EACH, MEASURE, COMMAND, NEGATE, ADD, SUBTRACT, MULTIPLY, DIVIDE = range(10)
-LESS, LESS_EQUAL, GREATER, GREATER_EQUAL, LEAST, GREATEST = range(10, 16)
+LESS, LESS_EQUAL, GREATER, GREATER_EQUAL, LEAST, GREATEST, WHEN, OTHERWISE = range(10, 18)
 
 OPERATIONS = {
     "number": NUMBER, "reading": READING, "each": EACH, "measure": MEASURE, "command": COMMAND, "negate": NEGATE,
     "+": ADD, "-": SUBTRACT, "*": MULTIPLY, "/": DIVIDE,
     "<": LESS, "<=": LESS_EQUAL, ">": GREATER, ">=": GREATER_EQUAL,
     "least": LEAST, "greatest": GREATEST, "and": LEAST, "or": GREATEST,
+    "when": WHEN, "otherwise": OTHERWISE,
 }  # fmt: skip
 
 
@@ -86,6 +87,13 @@ def combine(op: Any, left: Any, right: Any, count: Any) -> None:
     elif op == GREATEST:
         for k in range(count):
             left[k] = right[k] if right[k] > left[k] or isnan(right[k]) else left[k]
+    elif op == WHEN:
+        for k in range(count):
+            value = left[k] if right[k] > 0 and isfinite(left[k]) else nan
+            left[k] = inf if right[k] == 0 else value
+    elif op == OTHERWISE:
+        for k in range(count):
+            left[k] = right[k] if left[k] == inf else left[k]
     else:
         compare(op, left, right, count)
 

@@ -15,8 +15,8 @@ from mindrun.sim.arrays import Block, Room
 PUSH, STEERING, GRIPPER, IDLE = range(4)
 ITEM, ZONE, POWER, BOX, BALL, WALKER = range(6)
 STAYS, MOVES, VANISHES = range(3)
-PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE, ITS_REWARD, DRAWN_NUMBER = range(7)
-REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION, SUCCESS, ITS_END = range(7)
+PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE, ITS_REWARD, APART, DRAWN_NUMBER = range(8)
+REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION, SUCCESS, ITS_END, LEAVE = range(8)
 # How a number of a run comes about; before the world: CHOSEN and BETWEEN.
 CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, TIMES, OVER, INVERSE, DAMPING, CHOSEN, BETWEEN = range(10)
 
@@ -36,11 +36,11 @@ ACTUATOR_CODES = {
 THING_CODES = {"item": ITEM, "zone": ZONE, "power": POWER, "box": BOX, "ball": BALL, "walker": WALKER}
 MEASURE_CODES = {
     "progress": PROGRESS, "advance": ADVANCE, "retreat": RETREAT, "forward": FORWARD, "change": CHANGE,
-    "its reward": ITS_REWARD,
+    "its reward": ITS_REWARD, "distance": APART,
 }  # fmt: skip
 EVENT_CODES = {
     "reach": REACH, "delivery": DELIVERY, "visit": VISIT, "collision": COLLISION, "exhaustion": EXHAUSTION,
-    "success": SUCCESS, "its end": ITS_END,
+    "success": SUCCESS, "its end": ITS_END, "leave": LEAVE,
 }  # fmt: skip
 
 
@@ -92,7 +92,7 @@ LOOSE = _columns(i8="thing is_round density friction slower number turn")
 WALKING = _columns(i8="thing way ways copy is_anywhere is_drawn step turn after afters aim", f8="range")
 WAY = _columns(i8="first places")
 OBSTACLE = _columns(i8="columns rows count option options x_row y_row", f8="first last grid jitter x y low high")
-MEASURES = _columns(i8="kind thing things over ring row", f8="beyond")
+MEASURES = _columns(i8="kind thing things of ofs over ring row", f8="beyond")
 PRESENCE = _columns(i8="thing when whens")
 EVENT = _columns(i8="kind thing things to tos arrival columns rows board", f8="patch")
 END = _columns(i8="event times when whens succeeds")

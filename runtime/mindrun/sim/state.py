@@ -161,11 +161,12 @@ class JudgeState(Block):
     left_changes: Annotated[Array, rows("changes")]  # how much the left wheel's command changed
     right_changes: Annotated[Array, rows("changes")]
     visited: Annotated[Array, columns("board", kind=U1)]
-    arrived: Annotated[Array, rows("arrivals", kind=U1)]  # as `delivered`, of zones of one name
+    arrived: Annotated[Array, rows("arrivals", kind=U1)]  # as `delivered`, of zones or things of one name
     lines: Annotated[Array, rows("rewards")]  # the sum of each reward line
     counts: Annotated[Array, rows("events", kind=I8)]  # how often each happened in this run
     # for this tick
     measures: Annotated[Array, rows("measures")]
+    apart: Annotated[Array, rows("measures")]  # how far two things were from each other as the tick began
     events: Annotated[Array, rows("events")]  # how often it happened
     happened: Annotated[Array, shape("happened")]  # in how many lanes
     paid: Annotated[Array, each(F8)]  # whether a line pays, or an end has come; before that, room for a measure

@@ -212,9 +212,10 @@ def measure_rows(task: Task, parameters: Parameters) -> tuple[Array, int]:
     rows: list[Row] = []
     ring = 0
     for measure in task.measures:
-        about = places[measure.thing]
+        about, of = places[measure.thing], places[measure.other]
         rows.append({
             "kind": codes.MEASURE_CODES[names()[type(measure)]], "thing": about.start, "things": len(about),
+            "of": of.start, "ofs": len(of),
             "over": measure.over, "ring": ring if measure.over else 0, "beyond": measure.beyond,
         })  # fmt: skip
         ring += measure.over
@@ -224,19 +225,19 @@ def measure_rows(task: Task, parameters: Parameters) -> tuple[Array, int]:
 
 
 def event_rows(task: Task) -> tuple[Array, int, int]:
-    """Rows of EVENT, how many patches there are to visit, and how many items that may come into a certain zone."""
+    """Rows of EVENT, how many patches there are to visit, and how many things that may come to others or leave them."""
     places = rows_by_name(task)
     rows: list[Row] = []
     board = arrivals = 0
     for event in task.events:
         own, code = event.row(task.scene), codes.EVENT_CODES[names()[type(event)]]
-        about, into = places[event.thing], places[getattr(event, "to", "")]
+        about, into = places[event.thing], places[event.other]
         rows.append({
             "kind": code, "thing": about.start, "things": len(about), "to": into.start, "tos": len(into),
             "patch": 1.0, "board": board, **own, "arrival": arrivals,
         })  # fmt: skip
         board += int(own.get("columns", 0) * own.get("rows", 0))
-        arrivals += len(about) if into else 0
+        arrivals += event.remembered(len(about), len(into))
     return records(rows, codes.EVENT), board, arrivals
 
 

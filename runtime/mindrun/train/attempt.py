@@ -17,7 +17,19 @@ from mindrun.kinds.learners import Learner, run_lengths
 from mindrun.train.ask_and_tell import ask, kept_count, tell
 from mindrun.train.lesson_state import AttemptState, Course, Record, Verdict, rung_at
 from mindrun.train.population import Genomes, Scores, order
-from mindrun.train.scoring import Marks, Purpose, Scorer, Seeds, breeding_generator, layouts, mark, marks_of, succeeded
+from mindrun.train.scoring import (
+    Marks,
+    Purpose,
+    Scorer,
+    Seeds,
+    breeding_generator,
+    layouts,
+    lowest_mean,
+    lowest_of,
+    mark,
+    marks_of,
+    succeeded,
+)
 
 SEGMENT_SECONDS = 2.0  # after which a segment ends with the generation at work
 SEGMENT_GENERATIONS = 100  # at most in a segment
@@ -78,7 +90,8 @@ def advance(course: Course, scorer: Scorer, stretch: Stretch, clock: Clock, most
     while not ends and (not records or not _pauses(course.lesson, state, len(records), clock() - began, most)):
         start = clock()
         state, record = generation(course, scorer, stretch.number, state)
-        if ends := ends_by_itself(course.lesson, state):
+        enough, record = is_enough(course, scorer, stretch.number, state, record)
+        if ends := enough or ends_by_itself(course.lesson, state):
             verdict = judge(course, scorer, state)
         records.append(replace(record, seconds=clock() - start))
         champions.append(state.champion)
@@ -97,17 +110,19 @@ def generation(course: Course, scorer: Scorer, number: int, state: AttemptState)
     key = course.seed, number, state.population.generation
     genomes = ask(state.population, learner, course.start, scorer.draw, breeding_generator(*key))
     ticks = run_ticks(lesson, scorer.task, state.population.generation)
-    marks = mark(scorer, genomes, layouts(*key, learner.layouts), ticks)
+    marks = mark(scorer, genomes, layouts(*key, learner.layouts), learner.lowest, ticks)
     population = tell(state.population, learner, course.start, genomes, marks.scores)
     now = replace(state, population=population, told_apart=state.told_apart or are_different(marks.scores))
     done, reevaluated = [marks], None
     generations, rung = population.generation, rung_at(lesson, population.generation)
     first_or_tenth = generations == 1 or generations % REEVALUATION_GENERATIONS == 0
     if first_or_tenth or rung is not None or ends_by_itself(lesson, now):
-        now, again, reevaluated = reevaluate(now, scorer, layouts(*key, fresh_count(learner), Purpose.REEVALUATION))
+        fresh = layouts(*key, fresh_count(learner), Purpose.REEVALUATION)
+        now, again, reevaluated = reevaluate(now, scorer, fresh, learner.lowest)
         done.append(again)
     if rung is not None:
-        done.append(mark(scorer, now.champion, layouts(course.seed, 0, generations, VERDICT_LAYOUTS, Purpose.RUNG)))
+        common = layouts(course.seed, 0, generations, VERDICT_LAYOUTS, Purpose.RUNG)
+        done.append(mark(scorer, now.champion, common, learner.lowest))
         now = replace(now, climbed=now.climbed.copy())
         now.climbed[rung] = done[-1].scores[0]
     ticks, faults = sum(each.ticks for each in done), sum(each.faults for each in done)
@@ -128,19 +143,38 @@ def ends_by_itself(lesson: Lesson, state: AttemptState) -> bool:
     return number == lesson.generations or 0 < lesson.learner.patience <= number - state.since
 
 
+def is_enough(course: Course, scorer: Scorer, number: int, state: AttemptState, record: Record) -> tuple[bool, Record]:
+    """True if the champion of attempt `number`, once it was tried again, does what its lesson goes on until.
+
+    It is judged on layouts of its own, which choose nothing. The record has the ticks of that, too.
+    """
+    lesson, until = course.lesson, course.lesson.until
+    if until is None or record.reevaluated is None:
+        return False, record
+    key = course.seed, number, state.population.generation
+    results = scorer.score(state.champion, layouts(*key, VERDICT_LAYOUTS, Purpose.ENOUGH))
+    marks = marks_of(results, lesson.learner.lowest)
+    reached = marks.scores[0] if until.measure == "score" else succeeded(scorer.task, results).mean()
+    return bool(reached > until.above), replace(
+        record, ticks=record.ticks + marks.ticks, faults=record.faults + marks.faults
+    )
+
+
 def fresh_count(learner: Learner) -> int:
     """The number of layouts of a re-evaluation: the fewer candidates beside champion and rival, the more layouts."""
     return REEVALUATION_LAYOUTS * (REEVALUATED_CANDIDATES + 2) // (min(REEVALUATED_CANDIDATES, kept_count(learner)) + 2)
 
 
-def reevaluate(state: AttemptState, scorer: Scorer, fresh: Seeds) -> tuple[AttemptState, Marks, float]:
+def reevaluate(
+    state: AttemptState, scorer: Scorer, fresh: Seeds, lowest: float = 1.0
+) -> tuple[AttemptState, Marks, float]:
     """Make the best on fresh layouts champion, the old one or one of the generation's best; and its score on them."""
     ranked = state.population.genomes[order(state.population.scores)]
     candidates = np.concatenate([state.champion, ranked[:REEVALUATED_CANDIDATES], state.rival])
-    marks = mark(scorer, candidates, fresh)
+    marks = mark(scorer, candidates, fresh, lowest)
     winner = int(order(marks.scores[: len(candidates) - len(state.rival)])[0])
     now = replace(state, champion=candidates[winner : winner + 1])
-    if not len(state.rival) or is_better(marks.each[winner], marks.each[-1]):
+    if not len(state.rival) or is_better(marks.each[winner], marks.each[-1], lowest):
         now = replace(now, rival=now.champion, since=state.population.generation)
     return now, marks, float(marks.scores[winner])
 
@@ -150,12 +184,12 @@ def judge(course: Course, scorer: Scorer, state: AttemptState) -> Verdict:
     results = scorer.score(state.champion, verdict_layouts(course.seed, course.lesson.generations))
     marks = marks_of(results)
     passed = has_needed(course.lesson, scorer.task, results)
-    return Verdict(of_halves(marks.each), passed, marks.ticks, marks.faults)
+    return Verdict(of_halves(marks.each, course.lesson.learner.lowest), passed, marks.ticks, marks.faults)
 
 
 def has_needed(lesson: Lesson, task: Task, results: RunScores) -> bool:
     """True if a genome meets all needs of a lesson, by its results on each half of the layouts of a verdict."""
-    scores = of_halves(marks_of(results).each)
+    scores = of_halves(marks_of(results).each, lesson.learner.lowest)
     return all(
         (scores if need.measure == "score" else of_halves(succeeded(task, results))).min() > need.above
         for need in lesson.needs
@@ -167,18 +201,20 @@ def verdict_layouts(seed: int, generations: int) -> Seeds:
     return layouts(seed, 0, generations, 2 * VERDICT_LAYOUTS, Purpose.VERDICT)
 
 
-def of_halves(values: NDArray[Any]) -> Scores:
-    """The means [2] of a genome's values [1, 2 * VERDICT_LAYOUTS] on either half of the layouts."""
-    means: Scores = values[0].reshape(2, VERDICT_LAYOUTS).mean(axis=1)
-    return means
+def of_halves(values: NDArray[Any], lowest: float = 1.0) -> Scores:
+    """The means [2] of the lowest share of a genome's values [1, 2 * VERDICT_LAYOUTS] on either half of the layouts."""
+    return lowest_mean(values[0].reshape(2, VERDICT_LAYOUTS), lowest)
 
 
-def is_better(scores: Scores, than: Scores) -> bool:
-    """True if scores [layouts] are better than others on the same layouts by more than two standard errors."""
+def is_better(scores: Scores, than: Scores, lowest: float = 1.0) -> bool:
+    """True if scores [layouts] are better than others on the same layouts by more than two standard errors.
+
+    Where the lowest share counts, the lowest are held against the lowest; of one alone there is no error.
+    """
     if not np.isfinite(scores).all() or not np.isfinite(than).all():
         return bool(np.isfinite(scores).all())
-    gain = scores - than
-    return bool(gain.mean() > 2.0 * gain.std(ddof=1) / np.sqrt(len(gain)))
+    gain = scores - than if lowest == 1 else lowest_of(scores, lowest) - lowest_of(than, lowest)
+    return bool(gain.mean() > (2.0 * gain.std(ddof=1) / np.sqrt(len(gain)) if len(gain) > 1 else 0.0))
 
 
 def are_different(scores: Scores) -> bool:

@@ -6,7 +6,7 @@ All random numbers come from (run seed, attempt, generation, purpose), so that n
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
-from math import inf
+from math import ceil, inf
 from typing import Any, Protocol
 
 import numpy as np
@@ -29,6 +29,7 @@ class Purpose(IntEnum):
     COMPARISON = 4
     RUNG = 5
     RETENTION = 6
+    ENOUGH = 7
 
 
 def breeding_generator(seed: int, attempt: int, generation: int) -> np.random.Generator:
@@ -61,7 +62,7 @@ class Scorer(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Marks:
-    """Scores of genomes: `each` [genomes, layouts], their means `scores` [genomes]; ticks and faults in all."""
+    """Scores of genomes: `each` [genomes, layouts], `scores` [genomes] from these; ticks and faults in all."""
 
     each: Scores
     scores: Scores
@@ -74,22 +75,37 @@ def is_one_world(scorer: Scorer) -> bool:
     return bool(getattr(scorer, "is_one_world", False))
 
 
-def mark(scorer: Scorer, genomes: Genomes, seeds: Seeds | Sequence[int], ticks: int | None = None) -> Marks:
+def mark(
+    scorer: Scorer, genomes: Genomes, seeds: Seeds | Sequence[int], lowest: float = 1.0, ticks: int | None = None
+) -> Marks:
     """Score every genome on every seed, in runs of so many ticks; a genome with a fault anywhere has -inf.
+
+    Its score is the mean of the `lowest` share of its layouts.
 
     Where all worlds are one a genome has one run, whose score stands for all of its seeds.
     """
     if not is_one_world(scorer):
-        return marks_of(scorer.score(genomes, seeds, ticks=ticks))
+        return marks_of(scorer.score(genomes, seeds, ticks=ticks), lowest)
     marks = marks_of(scorer.score(genomes, seeds[:1], ticks=ticks))
     return replace(marks, each=np.repeat(marks.each, len(seeds), axis=1))
 
 
-def marks_of(results: RunScores) -> Marks:
+def lowest_mean(each: Scores, share: float) -> Scores:
+    """The means [genomes] of the lowest share of scores [genomes, layouts], rounded up; of all of them for 1."""
+    return np.asarray((each if share == 1 else lowest_of(each, share)).mean(axis=1))
+
+
+def lowest_of(each: Scores, share: float) -> Scores:
+    """The lowest share of scores [..., layouts], rounded up, the least first."""
+    count = ceil(round(share * each.shape[-1], 9))
+    return np.sort(each, axis=-1)[..., :count]
+
+
+def marks_of(results: RunScores, lowest: float = 1.0) -> Marks:
     """The scores in what was measured; a genome with a fault anywhere has -inf."""
     faulty = (results.faults > 0) | ~np.isfinite(results.total)
     each = np.where(faulty, -inf, results.total)
-    return Marks(each, each.mean(axis=1), int(results.ticks.sum()), int(faulty.sum()))
+    return Marks(each, lowest_mean(each, lowest), int(results.ticks.sum()), int(faulty.sum()))
 
 
 def succeeded(task: Task, results: RunScores) -> NDArray[np.bool_]:

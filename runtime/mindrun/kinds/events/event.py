@@ -4,7 +4,7 @@ from collections.abc import Collection, Mapping
 from math import ceil
 from typing import Annotated, NamedTuple, Protocol
 
-from mindrun.kinds.registry import base, kind
+from mindrun.kinds.registry import base, kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import AboutThing, ThingKind, WorldFacts
 from mindrun.numbers.quantity import THING, Quantity, Reference
@@ -52,6 +52,10 @@ class EventKind(AboutThing):
         """The hindrance where it can never happen although its task lacks nothing, else None."""
         return None
 
+    def remembered(self, things: int, others: int) -> int:
+        """How many of its things, or of the others, the lanes remember to have been where they are."""
+        return 0
+
     def row(self, scene: SceneKind) -> Row:
         """The kind's columns of the lanes' table but for its thing: `columns` and `rows` of patches, `patch` a side."""
         return {}
@@ -73,12 +77,52 @@ class Collision(EventKind):
 class Reach(EventKind):
     """An item, box, ball or walker comes into the claw's reach, or the robot's centre into a zone or power.
 
-    Once until it has left again.
+    Once until it has left again. With `by` another thing does so in the robot's place: its middle comes into the zone
+    or power, or its rim no farther from that of anything else than a claw reaches; nothing becomes of what it reaches.
     """
 
     of: Annotated[str, THING]
+    by: Annotated[str, THING] = left_out("")
 
-    outcome = "reached"
+    @property
+    def outcome(self) -> str:  # type: ignore[override]
+        """The argument of what the robot reaches; of what another thing reaches none."""
+        return "" if self.by else "reached"
+
+    @classmethod
+    def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:
+        """True for whatever can be reached; what reaches it is not on the floor itself."""
+        return cls.is_about(kind) and not (argument == "by" and kind.is_area)
+
+    def remembered(self, things: int, others: int) -> int:
+        """One for each thing that may be there."""
+        return others
+
+
+@kind("event", "leave")
+class Leave(EventKind):
+    """The robot's centre, or with `by` the middle of another thing, is in no zone or power of a name any more.
+
+    It was in one as the tick before ended, or the run began. A thing that vanishes leaves, too, and a zone that moves
+    is left.
+    """
+
+    of: Annotated[str, THING]
+    by: Annotated[str, THING] = ""
+
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """True for squares on the floor."""
+        return kind.is_area
+
+    @classmethod
+    def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:
+        """True for squares on the floor, or for `by` whatever else there is but obstacles."""
+        return not (kind.is_area or kind.is_obstacle) if argument == "by" else cls.is_about(kind)
+
+    def remembered(self, things: int, others: int) -> int:
+        """One for each thing that may be there, or for the robot."""
+        return max(1, others)
 
 
 PATCH = Quantity("a length in world units", {"": 1.0}, low=0.1, high=1e5)
@@ -122,6 +166,10 @@ class Delivery(EventKind):
     def is_about(kind: type[ThingKind]) -> bool:
         """True for things that a claw can take or that can be pushed."""
         return kind.can_be_delivered
+
+    def remembered(self, things: int, others: int) -> int:
+        """One for each thing, where it is about certain zones."""
+        return things if others else 0
 
     @classmethod
     def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:

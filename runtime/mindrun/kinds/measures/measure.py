@@ -4,7 +4,7 @@ from dataclasses import replace
 from math import inf
 from typing import Annotated
 
-from mindrun.kinds.registry import base, kind
+from mindrun.kinds.registry import base, kind, left_out
 from mindrun.kinds.things.thing import AboutThing
 from mindrun.numbers.quantity import RATIO, THING, TICKS, Reference
 
@@ -23,9 +23,13 @@ class MeasureKind(AboutThing):
 
 @kind("measure", "progress")
 class Progress(MeasureKind):
-    """Distance to the thing's centre closed in this tick, in world units; negative when moving away."""
+    """Distance to the thing's centre closed in this tick, in world units; negative when moving away.
+
+    With `of` it is the distance of another thing; of several, that of the two that are nearest to each other.
+    """
 
     toward: Annotated[str, THING]
+    of: Annotated[str, THING] = left_out("")
 
 
 @kind("measure", "advance")
@@ -33,6 +37,7 @@ class Advance(MeasureKind):
     """The progress toward the thing where it is positive, else 0."""
 
     toward: Annotated[str, THING]
+    of: Annotated[str, THING] = left_out("")
 
     interval = (0.0, inf)
 
@@ -42,6 +47,20 @@ class Retreat(MeasureKind):
     """The distance to the thing gained in this tick where it grew, else 0."""
 
     from_: Annotated[str, THING]
+    of: Annotated[str, THING] = left_out("")
+
+    interval = (0.0, inf)
+
+
+@kind("measure", "distance")
+class Apart(MeasureKind):
+    """Distance of a thing to another, from middle to middle, in world units; of several, of the two that are nearest.
+
+    0 where all of one name have vanished.
+    """
+
+    to: Annotated[str, THING]
+    of: Annotated[str, THING]
 
     interval = (0.0, inf)
 

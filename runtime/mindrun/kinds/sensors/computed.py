@@ -24,7 +24,8 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 class Computed(SensorKind):
     """The value of an expression over sensors and memories of one reading, clamped to 0..1. 0/0 is no reading.
 
-    A direction more or less numbers is one: it goes round, and 1.1 is 0.1.
+    With `when` it is that where the condition holds, and what stands after `otherwise` where not; no reading where
+    the condition compares what is not a number. A direction more or less numbers is one: it goes round, and 1.1 is 0.1.
     """
 
     at: Annotated[Formula, EXPRESSION]
@@ -42,19 +43,27 @@ class Computed(SensorKind):
         return self.at
 
     def goes_round(self, directions: Collection[str]) -> bool:
-        """True if it is one direction, taken once, more or less numbers."""
+        """True if it is one direction, taken once, more or less numbers, or one of two such."""
 
         def leaf(word: str, operand: Any) -> int | None:
             return 0 if word == "number" else 1 if operand in directions else None
 
         def combined(symbol: str, left: int | None, right: int | None) -> int | None:
-            if left is None or right is None or not (symbol in "+-" or left == right == 0):
+            if symbol == "when":
+                return left
+            if left is None or right is None:
                 return None
-            return left - right if symbol == "-" else left + right
+            if symbol == "otherwise":
+                return left if abs(left) == abs(right) else None
+            if symbol in "+-":
+                return left - right if symbol == "-" else left + right
+            return 0 if left == right == 0 else None
 
+        if not is_valid_program(self.at):  # which its flaw says
+            return False
         return fold(self.at, leaf, lambda count: None if count is None else -count, combined) in (1, -1)
 
-    def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
+    def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
         """A flaw where the expression is not whole, or names what has not a single reading."""
         starts = dict.fromkeys(self.sources, 0)
         if not (is_valid_program(placed(self.at, starts)) and all(widths.get(name) == 1 for name in self.sources)):

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
+from math import pi
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Begin, Bounds, Flaw, Row, Scene, SensorKind
 from mindrun.kinds.things.thing import WorldFacts
-from mindrun.numbers.quantity import COUNT, POSITIVE, RATIO, SENSOR, WINDOW
+from mindrun.numbers.quantity import ANGLE, COUNT, POSITIVE, RATIO, SENSOR, WINDOW
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
@@ -144,6 +145,60 @@ class Average(SensorKind):
                 out[p] = F(wrapped(now[p] + mean) if sensor.turns else mean)
 
 
+@kind("sensor", "turned")
+class Turned(SensorKind):
+    """A direction, turned to the left `by` an angle, round the circle: by 180 deg it is the way away from there.
+
+    Of a direction that is not known, which reads 0.5, it is turned all the same.
+    """
+
+    of: Annotated[str, SENSOR]
+    by: Annotated[float, ANGLE]
+
+    circular = shape = None
+
+    @property
+    def share(self) -> float:
+        """The angle as a share of a whole turn."""
+        return self.by / (2 * pi)
+
+    def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
+        """A flaw where the source is not a direction."""
+        if self.of in directions or self.of not in widths:
+            return None
+        hint = "Turn a bearing or a compass; to add to a number, write computed at."
+        return Flaw("no-direction", "of", f"{self.of} is not a direction, which could be turned.", hint)
+
+    def first(self, begin: Begin) -> Bounds | None:
+        """None: what is known of the source is turned, too."""
+        return None
+
+    def reader(self, scene: Scene) -> Reader:
+        """The source less the share, without whole turns, in float64."""
+        import numpy as np
+
+        source, share = scene.places[self.of], np.float64(np.float32(self.share))
+
+        def read(number: int, now: Readings, before: Readings | None) -> Readings:
+            value = now[source].astype(np.float64) - share
+            return np.where((value < 0) | (value > 1), value - np.floor(value), value).astype(np.float32)
+
+        return read
+
+    def row(self, scene: Scene) -> Row:
+        """The inherited columns and the share, as `gain`."""
+        return {**SensorKind.row(self, scene), "gain": self.share}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """The source less the share, without whole turns, in float64."""
+        for k in range(sensor.width):
+            out, now = s.readings[sensor.start + k], s.readings[sensor.source + k]
+            for p in range(n):
+                v = np.float64(now[p]) - np.float64(sensor.gain)
+                out[p] = F(v - np.floor(v) if v < 0.0 or v > 1.0 else v)
+
+
 @kind("sensor", "latch")
 class Latch(SensorKind):
     """1 from when another sensor reads less than `below` until it reads more than `above`, else 0: hysteresis.
@@ -160,7 +215,7 @@ class Latch(SensorKind):
     shape = None
     remembered = 1
 
-    def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
+    def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
         """A flaw where `above` is less than `below`."""
         if self.below <= self.above:
             return None
@@ -212,7 +267,7 @@ class Reading(SensorKind):
 
     circular = None
 
-    def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
+    def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
         """A flaw where the source has not so many readings."""
         if self.reading <= (width := widths.get(self.of, 0)):
             return None

@@ -1,6 +1,6 @@
 """One number of an environment's observation."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Annotated, Any
 
 from mindrun.kinds.environment import Slot
@@ -28,7 +28,7 @@ class Observation(Physical):
         """The number of the observation that the arguments name, and its range."""
         return Slot(self.part, self.observation, self.range)
 
-    def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
+    def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
         """A flaw where its range has not two ends."""
         if self.slot.has_two_ends:
             return None

@@ -119,8 +119,11 @@ class SensorKind(AboutThing):
         """True if its reading is a direction, given the names of other sensors whose readings are."""
         return self.source in directions if self.circular is None else self.circular
 
-    def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
-        """The error in its arguments, or None; `widths` has the number of readings of each sensor and memory."""
+    def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
+        """The error in its arguments, or None.
+
+        `widths` has the number of readings of each sensor and memory, `directions` are those that are directions.
+        """
         return None
 
     @property

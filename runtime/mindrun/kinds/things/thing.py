@@ -327,6 +327,12 @@ class AboutThing:
         """The name of the thing that it is about, which its argument of that type says; empty where it has none."""
         return self.named(THING)
 
+    @property
+    def other(self) -> str:
+        """The name of the second thing that it is about; empty where it has none, and for the robot."""
+        named = [getattr(self, each.field) for each in arguments(type(self)) if each.type is THING]
+        return "".join(named[1:2])
+
     def named(self, reference: Reference) -> str:
         """The value of its first argument of a type; empty where it has none."""
         return next((getattr(self, each.field) for each in arguments(type(self)) if each.type is reference), "")

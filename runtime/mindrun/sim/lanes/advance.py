@@ -3,7 +3,7 @@
 from mindrun.numbers.arithmetic import X, Y
 from mindrun.sim.codes import GOING_ON, Tables
 from mindrun.sim.lanes.act import act, recall
-from mindrun.sim.lanes.judge import judge
+from mindrun.sim.lanes.judge import begin_measures, judge
 from mindrun.sim.lanes.runs import end
 from mindrun.sim.lanes.sense import sense
 from mindrun.sim.lanes.solid import is_lost
@@ -40,6 +40,7 @@ def after(tables: Tables, state: State, jobs: Jobs, interrupt: int) -> None:
     act(tables, state, lanes)
     for lane in range(lanes):
         world.begun_at[X, lane], world.begun_at[Y, lane] = world.body[X, lane], world.body[Y, lane]
+    begin_measures(tables, state, lanes)
     step(tables, state, lanes)
     conclude(tables, state, jobs, interrupt)
 

@@ -6,16 +6,16 @@ Which things are reached does not depend on whether a line of the task names the
 import numpy as np
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
-from mindrun.numbers.arithmetic import COSINE, SINE, X, Y, distance_of, in_claw, inside, place_of
+from mindrun.numbers.arithmetic import COSINE, SINE, X, Y, distance_of, in_claw, inside, place_of, size_of
 from mindrun.sim import codes
-from mindrun.sim.codes import DELIVERY, GOING_ON, MOVES, STAYS, VANISHES, ZONE, Tables
+from mindrun.sim.codes import DELIVERY, GOING_ON, LEAVE, MOVES, REACH, STAYS, VANISHES, ZONE, Tables
 from mindrun.sim.lanes.loose import SETTLED_TICKS
 from mindrun.sim.lanes.placement import succeed, vanish
 from mindrun.sim.lanes.think import run_program
 from mindrun.sim.state import PLACE_ROWS, State, WorldState
 from mindrun.sim.units import unit, unit_where
 
-REACH_BEGUN = 1  # in this tick and not in the one before
+REACH_BEGUN, REACH_LEFT = 1, 2  # in this tick and not in the one before; or the other way round
 
 
 @unit
@@ -28,7 +28,7 @@ def judge(tables: Tables, state: State, lanes: int, clock: int, interrupt: int) 
     begun = meet(tables, world, lanes)
     for i in range(len(tables.events)):
         out = judged.events[i]
-        judged.happened[i] = notice(tables, world, state.contact, judged, tables.events[i], out, lanes)
+        judged.happened[i] = notice(tables, state, i, out, lanes)
     for i in range(len(tables.events)):
         for lane in range(lanes if judged.happened[i] > 0 else 0):
             judged.counts[i, lane] += int(judged.events[i, lane])
@@ -57,9 +57,12 @@ def drain(tables: Tables, world: WorldState, lanes: int) -> None:
         world.battery[lane] = min(1.0, max(0.0, left))
 
 
-def notice(tables, world, contact, judged, event, out, lanes):
-    """Write how often the event happened in this tick to `out` [lane]; return the number of lanes in which it did."""
-    if event.kind == codes.REACH:
+def notice(tables, state, i, out, lanes):
+    """Write how often event i happened in this tick to `out` [lane]; return the number of lanes in which it did."""
+    world, contact, judged, event = state.world, state.contact, state.judge, tables.events[i]
+    if event.kind == LEAVE or (event.kind == REACH and event.tos > 0):
+        cross(tables, state, i, lanes)
+    elif event.kind == REACH:
         begun_of(out, world.reached, event, lanes)
     elif event.kind == DELIVERY and event.tos == 0:
         begun_of(out, world.delivered, event, lanes)
@@ -83,6 +86,48 @@ def notice(tables, world, contact, judged, event, out, lanes):
     for lane in range(lanes):
         count += 1 if out[lane] > 0 else 0
     return count
+
+
+@unit_where(lambda tables: is_crossing(tables.events).any())
+def cross(tables: Tables, state: State, i: int, lanes: int) -> None:
+    """Count the things of event i, or the robot, that come to what it is about in this tick, or leave it."""
+    event, world, judged = tables.events[i], state.world, state.judge
+    wanted = REACH_LEFT if event.kind == LEAVE else REACH_BEGUN
+    for lane in range(lanes):
+        judged.events[i, lane] = 0.0
+        for k in range(max(1, event.tos)):
+            note(judged.arrived, event.arrival + k, lane, is_there(tables, world, event, k, lane))
+            judged.events[i, lane] += 1.0 if judged.arrived[event.arrival + k, lane] == wanted else 0.0
+
+
+@unit_where(lambda tables: (tables.events["kind"] == LEAVE).any())
+def begin_inside(tables: Tables, state: State, i: int, lane: int) -> None:
+    """Remember which things of event i, or whether the robot, are in its zones as a run begins."""
+    event = tables.events[i]
+    for k in range(max(1, event.tos)):
+        state.judge.arrived[event.arrival + k, lane] = 1 if is_there(tables, state.world, event, k, lane) else 0
+
+
+def is_crossing(events):
+    """A mask of the events of things that come to others, or of what leaves a zone."""
+    return (events["kind"] == LEAVE) | ((events["kind"] == REACH) & (events["tos"] > 0))
+
+
+def is_there(tables, world, event, k, lane):
+    """True if the k-th thing of an event, or the robot where it names none, is at any of what the event is about."""
+    x, y, rim = world.body[X, lane], world.body[Y, lane], 0.0
+    if event.tos > 0:
+        x, y = place_of(world.things, event.to + k, lane)
+        rim = tables.world[0].claw + size_of(world.things, event.to + k, lane) / 2
+    found = False
+    for i in range(event.thing, event.thing + event.things):
+        if tables.things[i].is_area:
+            found = found or inside(world.things, i, x, y, lane)
+        else:
+            its_x, its_y = place_of(world.things, i, lane)
+            most = rim + size_of(world.things, i, lane) / 2
+            found = found or (x - its_x) * (x - its_x) + (y - its_y) * (y - its_y) <= most * most
+    return found
 
 
 def patch_of(body, constants, event, lane):
@@ -179,8 +224,46 @@ def take_measures(tables, state, lanes, clock):
         elif measure.kind == codes.DRAWN_NUMBER:
             for lane in range(lanes):
                 out[lane] = world.numbers[measure.row, lane]
+        elif measure.ofs > 0:
+            compare_places(tables, state, i, lanes, 0)
         elif measure.kind != codes.ITS_REWARD:  # which stands there already
             progress(out, judged.paid, world.body, world.things, measure, lanes)
+
+
+def begin_measures(tables, state, lanes):
+    """Remember how far from each other things are as a tick begins, where a measure asks."""
+    for i in range(len(tables.measures)):
+        if tables.measures[i].ofs > 0:
+            compare_places(tables, state, i, lanes, 1)
+
+
+@unit_where(lambda tables: (tables.measures["ofs"] > 0).any())
+def compare_places(tables: Tables, state: State, i: int, lanes: int, begins: int) -> None:
+    """Measure the least distance between two things of measure i as a tick `begins`, or what the tick made of it."""
+    measure, things, judged = tables.measures[i], state.world.things, state.judge
+    for lane in range(lanes):
+        least = np.inf
+        for one in range(measure.of, measure.of + measure.ofs):
+            x, y = place_of(things, one, lane)
+            for other in range(measure.thing, measure.thing + measure.things):
+                its_x, its_y = place_of(things, other, lane)
+                square = (x - its_x) * (x - its_x) + (y - its_y) * (y - its_y)
+                least = square if square < least else least
+        now = np.sqrt(least)
+        if begins:
+            judged.apart[i, lane] = now
+            continue
+        found = part_of(judged.apart[i, lane] - now, measure.kind) if measure.kind != codes.APART else now
+        judged.measures[i, lane] = found if now < np.inf else 0.0
+
+
+def part_of(closed, kind):
+    """A distance that was closed, or the part of it that is an advance, or a retreat."""
+    if kind == codes.ADVANCE:
+        return closed if closed > 0.0 else 0.0
+    if kind == codes.RETREAT:
+        return -closed if closed < 0.0 else 0.0
+    return closed
 
 
 def progress(out, now, body, things, measure, lanes):
@@ -199,11 +282,7 @@ def progress(out, now, body, things, measure, lanes):
             before[lane] = away if (away < least) | (least != least) else least
             now[lane] = here if (here < less) | (less != less) else less
     for lane in range(lanes):
-        closed = before[lane] - np.sqrt(now[lane])
-        if measure.kind == codes.ADVANCE:
-            closed = closed if closed > 0.0 else 0.0
-        elif measure.kind == codes.RETREAT:
-            closed = -closed if closed < 0.0 else 0.0
+        closed = part_of(before[lane] - np.sqrt(now[lane]), measure.kind)
         out[lane] = 0.0 if np.isnan(closed) else closed
 
 

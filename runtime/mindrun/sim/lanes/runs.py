@@ -4,9 +4,9 @@ import numpy as np
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import ANGLE, COSINE, SINE, X, Y, sine_cosine
-from mindrun.sim.codes import DRAWN_NUMBER, GOING_ON, LOST, VISIT, Tables
+from mindrun.sim.codes import DRAWN_NUMBER, GOING_ON, LEAVE, LOST, VISIT, Tables
 from mindrun.sim.lanes.drawn_numbers import draw_numbers, set_numbers
-from mindrun.sim.lanes.judge import patch_of
+from mindrun.sim.lanes.judge import begin_inside, patch_of
 from mindrun.sim.lanes.placement import draw, vanish
 from mindrun.sim.lanes.solid import is_lost
 from mindrun.sim.lanes.think import run_program
@@ -100,6 +100,8 @@ def reset(tables, state, lane):
         if tables.events[i].kind == VISIT:  # the patch that the robot starts in
             patch = patch_of(world.body, tables.world[0], tables.events[i], lane)
             judge.visited[lane, tables.events[i].board + patch] = 1
+        elif tables.events[i].kind == LEAVE:
+            begin_inside(tables, state, i, lane)
     state.sight.anchor[:, lane] = np.nan
     state.contact.near[lane], state.contact.touching[lane] = 0, 0
     state.contact.space[lane].seconds = 0.0
