@@ -148,7 +148,7 @@ def _alike(draw: st.DrawFn, name: str, owner: Skill, width: int) -> Skill:
         replace(edge, value=other(edge.value), gate=other_gate(edge.gate) if edge.gate else None)
         for edge in owner.edges
     )
-    return Skill(name, owner.function, inputs, edges, like=owner.name)
+    return Skill(name, owner.function, inputs, edges, like=owner.name, chooses=owner.chooses)
 
 
 def doubling(levels: int, last: tuple[Edge, ...], value: float = 1.0) -> tuple[Skill, ...]:

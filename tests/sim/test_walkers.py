@@ -119,8 +119,8 @@ skill Rest is rule
 task World in arena size 60
   starts at 0 0
   contains cat is walker size 1 speed 6 seeks robot at 12 5
-  contains mouse is walker size 1 speed 3 flees robot within 8 at 3 -4 reached vanishes
-  contains dog is walker size 1 speed 4 seeks mouse within 0.5 at -20 -20
+  contains mouse is walker size 1 speed 3 flees robot range 8 at 3 -4 reached vanishes
+  contains dog is walker size 1 speed 4 seeks mouse range 0.5 at -20 -20
   lasts TICKS ticks
 """
 
@@ -134,4 +134,4 @@ def test_who_seeks_comes_straight_and_who_flees_stays_away() -> None:
     assert (cat[130:] == 0).all()
     assert mouse[:59] == pytest.approx(5 + 0.05 * np.arange(1, 60))
     assert (mouse > 4.9).all()
-    assert np.ptp(dog) > 1, "nothing is within half a unit: it wanders"
+    assert np.ptp(dog) > 1, "nothing is in half a unit: it wanders"

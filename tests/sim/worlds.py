@@ -35,7 +35,7 @@ DRAWS = st.sampled_from([
     Draw("side", (-4.0, 3.0)), Draw("side", (1.0, 5.0, -2.5)), Draw("far", (-6.0, 6.0), True), Draw("far", (2.0,)),
 ])  # fmt: skip
 SPEEDS, TURNINGS = st.sampled_from([0.5, 3.0, 20.0, 300.0]), st.sampled_from([0.0, 1.5, 10.0])
-RANGES = st.sampled_from([FARTHEST_UNITS, FARTHEST_UNITS, 0.5, 6.0])  # from how far away a walker seeks or flees
+NOTICED = st.sampled_from([FARTHEST_UNITS, FARTHEST_UNITS, 0.5, 6.0])  # from how far away a walker seeks or flees
 MAZES = [("#..#", "....", "##.."), ("#.#", "...", "###", "..#")]
 NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
 OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])
@@ -188,7 +188,7 @@ def _goings(draw: st.DrawFn, placed: dict[str, Any], names: list[str]) -> dict[s
         case "":
             return placed
         case aim:
-            return {**placed, aim: draw(st.sampled_from(names)), "range": draw(RANGES)}
+            return {**placed, aim: draw(st.sampled_from(names)), "range": draw(NOTICED)}
 
 
 @st.composite

@@ -1,6 +1,6 @@
 """What a person or a program wants of the robot."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
@@ -47,7 +47,7 @@ class Order(SensorKind):
         """One reading for each of several choices, else a single one."""
         return (self.choices,) if self.choices else ()
 
-    def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
+    def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
         """A flaw where its range has not two ends, or its neutral is no order."""
         first, last = self.order.first, self.order.last
         if not first < last or self.order.by is not None:
