@@ -227,9 +227,9 @@ def _units(line: CursorLine, last: Sequence[Any]) -> Iterator[Offer]:
 def _range_words(line: CursorLine, last: Sequence[Any], end: int) -> Iterator[Offer]:
     """The words of a range behind a number that may be one."""
     said = said_argument(last, line.above)
-    if said and said.meaning and said.meaning.shape == "span" and said.argument.span.end == end:
+    if said and said.meaning and said.meaning.shape in ("span", "list") and said.argument.span.end == end:
         match said.argument.value:
-            case syntax.Numbers():
+            case syntax.Numbers((_,)):
                 yield Offer("to", "word")
             case syntax.Range(by=None):
                 yield Offer("by", "word")

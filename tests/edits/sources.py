@@ -66,6 +66,7 @@ SENSORS = {
     "eye": [
         "sensor eye is range_finder at 0 30 330 deg",
         "sensor eye is range_finder at -30 deg 0 deg 30 deg range 12",
+        "sensor eye is range_finder at 30 to -30 by 15 deg",
     ],
     "charge": ["sensor charge is battery"],
     "beat": ["sensor beat is sine period 2 s", "sensor beat is sine period 0.5 s"],
