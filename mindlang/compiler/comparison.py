@@ -145,8 +145,9 @@ def _parts(header: syntax.Header, of: Any) -> tuple[Any, dict[str, Sequence[Any]
     """The resolved header of a declaration, and the values that its facts have become, by verb and in their order."""
     match of:
         case Skill(like=like) if like:
-            reads = syntax.of_form(of.declaration.facts, syntax.Reads)
-            return like, {"reads": [(fact.name.text, fact.stands_for and fact.stands_for.text) for fact in reads]}
+            lines = (fact for fact in of.declaration.facts if isinstance(fact, syntax.Reads | syntax.Sends))
+            instead = [(syntax.verb_of(f), f.name.text, f.stands_for and f.stands_for.text) for f in lines]
+            return like, {"reads drives influences": instead}
         case Skill():
             return of.function, {"reads": of.reads, "drives influences": of.edges, "stays": [True] * of.frozen}
         case Task():

@@ -89,7 +89,9 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
             yield name, READABLE_NOUNS
             yield from _if_any(stands_for, *READABLE_NOUNS)
         case syntax.Sends(name):
-            yield name, DRIVABLE_NOUNS if isinstance(line, syntax.Drives) else ("skill",)
+            nouns = DRIVABLE_NOUNS if isinstance(line, syntax.Drives) else ("skill",)
+            yield name, nouns
+            yield from _if_any(line.stands_for, *nouns)
             yield from _in_expressions(*syntax.expressions_in(line))
         case syntax.Contains(name, phrase):
             yield name, ("thing",)

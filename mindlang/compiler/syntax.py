@@ -170,20 +170,24 @@ class Reads(Struct, frozen=True):
 
 
 class Sends(Struct, frozen=True):
-    """The common part of `drives` and `influences`: to whom something is sent, which value, and when."""
+    """The common part of `drives` and `influences`: to whom something is sent, which value, and when.
+
+    With `for NAME`, to whom a skill sends instead of that, which the skill sends to that this one is like.
+    """
 
     name: Name
     at: Expression | None
     gate: Gate | None
     span: Span
+    stands_for: Name | None = None
 
 
 class Drives(Sends, frozen=True):
-    """`drives NAME [at EXPRESSION] [when CONDITION …]`"""
+    """`drives NAME [at EXPRESSION] [when CONDITION …]`, or `drives NAME for NAME`"""
 
 
 class Influences(Sends, frozen=True):
-    """`influences NAME [at EXPRESSION] [when CONDITION …] [cuts below AMOUNT]`"""
+    """`influences NAME [at EXPRESSION] [when CONDITION …] [cuts below AMOUNT]`, or `influences NAME for NAME`"""
 
     cuts: Amount | None = None
 

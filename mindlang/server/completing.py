@@ -26,16 +26,16 @@ from mindlang.compiler.references import names_in
 from mindlang.compiler.resolve.curricula import MEASURED, SWITCHES, USING
 from mindlang.compiler.resolve.kinds import about
 from mindlang.compiler.source import Source
-from mindlang.compiler.syntax import Amount, Declaration, Header, Name, Phrase, Teaches
+from mindlang.compiler.syntax import Amount, Declaration, Header, Phrase, Teaches
 from mindlang.editing.insertion import OWNERS
 from mindlang.files import files_below
 from mindlang.server.offers import (
     Offer,
     functions,
-    inputs_of,
     keys,
     kinds_of,
     names,
+    said_of,
     things,
     units,
     units_of,
@@ -59,7 +59,7 @@ TRIED = {"NAME": "tried", "TITLE": "Tried"}  # names that are put where the gram
 # Words that the grammar takes in more lines than they mean something in: those lines, and how the word is offered.
 WORDS: Mapping[str, Mapping[str, str]] = {
     "per": {"rewards": "per tick", "fails": "per"},
-    "for": {"rewards": "for each", "teaches": "for", "reads": "for"},
+    "for": {"rewards": "for each", "teaches": "for", "reads": "for", "drives": "for", "influences": "for"},
     "like": {"skill": "like", "task": "like", "scene": "like"},
     "to": {"varies": "to"},
     "tick": {"rewards": "tick", "fails": "tick", "stop": "tick"},
@@ -305,9 +305,9 @@ def _sayable(line: CursorLine, nodes: Sequence[Any], known: list[Offer]) -> list
     match nodes[0] if nodes else None:
         case Header(name=name):
             return [each for each in known if each.sort != "actuator" and each.label != name.text]
-        case syntax.Reads(_, Name()):
-            inputs = inputs_of(line.view, own.like.text) if own and own.like else ()
-            return [each for each in known if each.label in inputs]
+        case syntax.Reads() | syntax.Sends() as fact if fact.stands_for is nodes[-1]:
+            replaceable = said_of(line.view, own.like.text, type(fact)) if own and own.like else ()
+            return [each for each in known if each.label in replaceable]
         case syntax.Reads() | syntax.Sends() as fact if fact.name is nodes[-1]:
             but = line.said(type(fact)) | ({own.name.text} if own else set())
             return [each for each in known if each.label not in but]
@@ -325,5 +325,5 @@ def _words(line: CursorLine, accepted: set[str]) -> Iterator[Offer]:
     for sort, said in _literals().items():
         for word in said if sort in accepted else ():
             label = WORDS.get(word, {line.first: word}).get(line.first, "")
-            if label and (is_like or (line.first, word) != ("reads", "for")):
+            if label and (is_like or word != "for" or line.first not in ("reads", "drives", "influences")):
                 yield from words(label)

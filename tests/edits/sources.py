@@ -302,12 +302,16 @@ def _skill(rng: Random, name: str, function: str, below: list[str]) -> list[str]
 
 
 def _like(rng: Random, owner: list[str]) -> list[str]:
-    """A skill with the weights of another, that reads something else than it, or the same."""
+    """A skill with the weights of another, that reads and drives something else than it, or the same."""
     reads = [fact.split()[1] for fact in owner if fact.startswith("reads ")]
     mine = [reading for reading in reads if reading in NARROW]
     others = sorted(NARROW - {*reads})
     instead = zip(rng.sample(others, len(mine)), mine, strict=True)
     lines = [f"reads {other} for {reading}" for other, reading in instead if rng.random() < 0.7]
+    driven = [fact.split()[1] for fact in owner if fact.startswith("drives ")]
+    free = sorted({*ACTUATORS, "mood"} - {*driven})
+    instead = zip(rng.sample(free, len(driven)), driven, strict=True)
+    lines += [f"drives {other} for {actuator}" for other, actuator in instead if rng.random() < 0.5]
     return [f"skill {LIKE} is like {owner[0].split()[1]}", *lines]
 
 

@@ -23,11 +23,12 @@ _FORMS: Mapping[str, type[Struct]] = {
     "transmission": syntax.Transmits, "needs": syntax.Needs, "each": syntax.Each, "when": syntax.When,
     "comparison": syntax.Comparison, "argument": Argument, "setting": Argument, "origin": Argument,
 }  # fmt: skip
+_SENT = {"name": Name, "at": Expression, "gate": syntax.Gate, "stands_for": Name}
 _OUTCOME = {"times": Amount, "event": Phrase, "when": syntax.When}
-# Rules any of whose parts may be missing: which field a part is, its type says.
+# Rules any of whose parts may be missing: which field a part is, its type says, and of two of one type their order.
 _FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, type]]] = {
-    "drives": (syntax.Drives, {"name": Name, "at": Expression, "gate": syntax.Gate}),
-    "influences": (syntax.Influences, {"name": Name, "at": Expression, "gate": syntax.Gate, "cuts": Amount}),
+    "drives": (syntax.Drives, _SENT),
+    "influences": (syntax.Influences, {**_SENT, "cuts": Amount}),
     "starts": (syntax.Starts, {"place": tuple, "facing": Amount}),
     "ends": (syntax.Ends, _OUTCOME),
     "succeeds": (syntax.Succeeds, _OUTCOME),
@@ -57,7 +58,8 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         """A rule of the tables."""
         if data in _FIELDS:
             form, fields = _FIELDS[data]
-            found = {field: next(iter(syntax.of_form(children, of)), None) for field, of in fields.items()}
+            parts = {of: iter(syntax.of_form(children, of)) for of in fields.values()}
+            found = {field: next(parts[of], None) for field, of in fields.items()}
             return form(**found, span=self._span(meta))
         form = _FORMS[data]
         missing = len(form.__struct_fields__) - 1 - len(children)

@@ -119,8 +119,8 @@ def _likeness_flaws(graph: Graph) -> Iterator[str]:
 
 
 def _shape(skill: Skill) -> object:
-    """Function and number of inputs, which weights have to fit, and where the outputs go."""
-    return skill.function, len(skill.inputs), [(edge.to, edge.target, edge.output) for edge in skill.edges]
+    """Function, number of inputs, and outputs, which weights have to fit."""
+    return skill.function, len(skill.inputs), [edge.output for edge in skill.edges]
 
 
 def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
