@@ -11,6 +11,7 @@ from msgspec import Struct
 
 from mindlang.compiler import syntax
 from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.families import said
 from mindlang.compiler.format import spaced
 from mindlang.compiler.model import Lesson, Mind, Part, Skill, Task
 from mindlang.compiler.names import Names
@@ -171,7 +172,7 @@ def _header(header: syntax.Header, names: Names) -> str:
 
 
 def _written(node: Any) -> str:
-    return spaced(node.span.text)
+    return spaced(said(node))
 
 
 def _meaning(node: Any) -> Any:

@@ -397,12 +397,30 @@ Setting = Use | Master | Tick | Version | Unit | Number
 Line = Setting | Header | Fact
 
 
+class Family(Struct, frozen=True):
+    """`where LETTER is AMOUNT to AMOUNT`: the numbers that stand for the letter at the end of names."""
+
+    letter: Name
+    first: Amount
+    last: Amount
+    span: Span
+
+
+class Repeated(Struct, frozen=True):
+    """A line that stands for several, one for each number of its family."""
+
+    line: Header | Fact
+    family: Family
+    span: Span
+
+
 class File(Struct, frozen=True):
-    """A whole source."""
+    """A whole source; a declaration or a fact that stands for several is written out, and `families` is where it is."""
 
     source: Source
     settings: tuple[Setting, ...]
     declarations: tuple[Declaration, ...]
+    families: tuple[Span, ...] = ()
 
 
 def verb_of(fact: Fact) -> str:

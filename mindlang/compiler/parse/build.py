@@ -22,6 +22,7 @@ _FORMS: Mapping[str, type[Struct]] = {
     "varies": syntax.Varies, "fails": syntax.Fails, "lasts": syntax.Lasts, "counts": syntax.Counts,
     "transmission": syntax.Transmits, "needs": syntax.Needs, "each": syntax.Each, "when": syntax.When,
     "comparison": syntax.Comparison, "argument": Argument, "setting": Argument, "origin": Argument,
+    "family": syntax.Family,
 }  # fmt: skip
 _SENT = {"name": Name, "at": Expression, "gate": syntax.Gate, "stands_for": Name}
 _OUTCOME = {"times": Amount, "event": Phrase, "when": syntax.When}
@@ -81,9 +82,12 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     LEVEL = COMPARE
 
     def line(self, meta: Any, parts: list[Any]) -> Any:
+        return syntax.Repeated(*parts, self._span(meta)) if len(parts) > 1 else parts[0]
+
+    def name(self, meta: Any, parts: list[Any]) -> Any:
         return parts[-1]
 
-    name = under = word = cuts = facing = line
+    under = word = cuts = facing = name
 
     def use(self, meta: Any, parts: list[Any]) -> syntax.Use:
         path, alias = (*parts, None)[:2]

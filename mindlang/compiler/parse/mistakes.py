@@ -105,6 +105,18 @@ MISTAKES = (
         "sensor eyes is range_finder at ±90 deg"),
     Mistake("unknown-unit", r"(?P<here>°)", "° is not a unit of the language.", "Write deg.",
         "sensor eyes is range_finder at 0 90°"),
+    Mistake("family-numbers",
+        rf"^\s*(?:{_NAMED})\s+(?P<here>(?P<stem>[A-Za-z]\w*?)(?P<first>\d+)\s*(?:\.\.+|…)\s*\w*?(?P<last>\d+)\b)",
+        "A family is not written with dots.", "Write {stem}N, and at the end of the line where N is {first} to {last}.",
+        "skill Go1..10 is mlp hidden 2"),
+    Mistake("family-numbers",
+        r"\s(?P<here>for\s+(?:each\s+|all\s+)?\w+\s+(?:in|is|=|from)\s+\d.*|where\s+\w+\s+(?:in|=|from)\s.*"
+        r"|where\s+[A-Z]\w*(?:\s+is(?:\s+\d+(?:\s+to)?)?)?\s*)$",
+        "The numbers of a family are said otherwise.", "Write where N is 1 to 10, and N at the end of names: GoN.",
+        "skill GoN is mlp hidden 2 for N in 1 to 10"),
+    Mistake("family-letter", r"\swhere\s+(?P<here>[a-z]\w*)\s+is\b",
+        "A family is numbered by one capital letter.", "Write where N is 1 to 10, and N at the end of names: GoN.",
+        "skill Go_n is mlp hidden 2 where n is 1 to 10"),
     Mistake("range-dots", r"(?P<here>\.\.+|…)", "A range is not written with dots.",
         "Write 1 to 3; a list has all of its numbers.", "contains ball is item size 1..3"),
     # Environments of Gymnasium.
