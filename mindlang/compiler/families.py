@@ -43,7 +43,7 @@ def members(named: Any, family: Family, lines: int, findings: Findings) -> range
 
 def _wrong_numbers(first: Amount, last: Amount, lines: int) -> str:
     """A sentence about numbers that a family cannot have; empty where it can."""
-    if any(amount.unit or not amount.number.is_integer() for amount in (first, last)):  # nan, too
+    if not all(amount.span.text.isdecimal() for amount in (first, last)):
         return "The members of a family have whole numbers."
     if last.number < first.number:
         return "This family has no members."
@@ -57,8 +57,14 @@ def _wrong_numbers(first: Amount, last: Amount, lines: int) -> str:
     )
 
 
-def numbered(text: str, letter: str, number: int) -> str:
-    """A text with a number in the place of the letter."""
+def letter_in(name: str) -> str:
+    """The letter that stands for a number in a name; empty where none does."""
+    found = _LETTER.search(name)
+    return found[0] if found else ""
+
+
+def numbered(text: str, letter: str, number: int | str) -> str:
+    """A text with a number, or another letter, in the place of the letter."""
     return re.sub(rf"(?<=\w){letter}(?![A-Za-z0-9])", str(number), text)
 
 

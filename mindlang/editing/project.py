@@ -79,13 +79,17 @@ class Unshared:
 
 @dataclass(frozen=True, slots=True)
 class MindChange:
-    """A change of a mind: `splices` of the sources, `created` files, and the names that the weights have to follow."""
+    """A change of a mind: `splices` of the sources, `created` files, and the names that the weights have to follow.
+
+    One that is `of_families` knows that a line may stand for several.
+    """
 
     splices: tuple[Splice, ...]
     renamed: tuple[Renamed, ...] = ()
     replaced: Replaced | None = None
     unshared: Unshared | None = None
     created: Mapping[Path, str] = field(default_factory=dict)
+    of_families: bool = False
 
 
 @dataclass(frozen=True, slots=True)

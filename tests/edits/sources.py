@@ -18,6 +18,7 @@ FOLDER = Path("/nowhere/minds")
 MAIN, PARTS = FOLDER / "main.mind", FOLDER / "parts.mind"
 SKILLS = ("Go", "Avoid", "Go+Avoid", "Collect", "Fetch", "Grab", "Wait")
 LIKE = "GoHome"  # the skill that is like another, where there is one
+STEPS = "skill StepN is mlp where N is 1 to 3"  # a family, where there is one
 FUNCTIONS = (
     "mlp hidden 2",
     "mlp hidden 1 width 4",
@@ -175,7 +176,7 @@ def a_mind(rng: Random) -> Texts:
     apart = [lines for lines in declared if rng.random() < 0.3] if rng.random() < 0.3 else []
     settings = [
         ["tick 1/60 s"],
-        [f"master {rng.choice([_name(lines) for lines in declared if _noun(lines) == 'skill'])}"],
+        [f"master {rng.choice([_name(lines) for lines in declared if _noun(lines) == 'skill' and lines[0] != STEPS])}"],
     ]
     main = [*settings, *([['use "parts.mind"']] if apart else []), *(lines for lines in declared if lines not in apart)]
     style, numbers = _Style(rng), count()
@@ -238,12 +239,16 @@ def _declarations(rng: Random) -> list[list[str]]:
     learners = [skill for skill in skills if functions[skill].startswith(("mlp", "elman", "gru"))]
     if learners and rng.random() < 0.4:
         blocks.append(_like(rng, next(block for block in blocks if block[0].startswith(f"skill {learners[0]} "))))
+    if is_family := rng.random() < 0.3:
+        above = next(block for block in blocks if block[0].startswith(f"skill {skills[0]} "))
+        above += ["reads pulseN where N is 2 to 4", "influences StepK at 1/2 where K is 1 to 2"]
+        blocks += [["sensor pulseN is clock period 2 s where N is 1 to 4"], [STEPS, "reads pulseN", "drives mast"]]
     if learners:
         lessons = [
             f"teaches {skill} on {rng.choice(tasks)} for {rng.randint(1, 9)} generations"
             + rng.choice(["", " from scratch"])
             for skill in rng.sample(learners, rng.randint(0, len(learners)))
-        ]
+        ] + [f"teaches StepN on {rng.choice(tasks)} for 2 generations where N is 1 to 3"] * is_family
         learner = rng.choice(list(kinds("curriculum")))
         blocks.append(
             [_more(rng, "curriculum", f"curriculum School is {learner} population {rng.randint(8, 9)}"), *lessons]

@@ -42,7 +42,8 @@ class _Block:
         assert self.header
         start, text = self.header.span, self.header.span.source.text
         last = max([start.end, *(fact.span.end for fact in self.facts if fact)])
-        return replace(start, end=(text.find("\n", last) + 1 or len(text) + 1) - 1)
+        end = (text.find("\n", last) + 1 or len(text) + 1) - 1
+        return replace(start, end=end - text.endswith("\r", 0, end))
 
     def add(self, line: syntax.Fact | None, family: syntax.Family | None, findings: Findings) -> None:
         """Add a fact, or those of a family."""
