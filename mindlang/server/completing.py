@@ -21,6 +21,7 @@ from mindrun.sim.outside import making
 
 from mindlang.breakpoints.breakpoint import FAULT, OF, ROBOT_WORDS
 from mindlang.compiler import syntax
+from mindlang.compiler.families import letter_in
 from mindlang.compiler.parse.shape import Start, grammar, parse_line
 from mindlang.compiler.references import names_in
 from mindlang.compiler.resolve.curricula import MEASURED, SWITCHES, USING
@@ -325,5 +326,7 @@ def _words(line: CursorLine, accepted: set[str]) -> Iterator[Offer]:
     for sort, said in _literals().items():
         for word in said if sort in accepted else ():
             label = WORDS.get(word, {line.first: word}).get(line.first, "")
+            if word == "where" and not letter_in(line.code):
+                continue  # no family without a letter
             if label and (is_like or word != "for" or line.first not in ("reads", "drives", "influences")):
                 yield from words(label)
