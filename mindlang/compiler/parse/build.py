@@ -117,6 +117,11 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         named = [Argument(Name("part", name.span), name, name.span) for name in part]
         return Phrase(kind, (first, *named, *rest[len(which) :]), self._span(meta))
 
+    def last(self, meta: Any, parts: list[Any]) -> Argument:
+        span = self._span(meta)
+        key = Name("to", Span(span.source, span.start, span.start + 2))
+        return Argument(key, Numbers((parts[0],), parts[0].span), span)
+
     def outside(self, meta: Any, parts: list[Any]) -> Phrase:
         """The environment goes as an argument that is called as its kind."""
         kind, environment = parts
