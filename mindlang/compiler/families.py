@@ -106,7 +106,7 @@ def each_family_once(found: Iterable[Diagnostic], families: Sequence[Span]) -> I
     for number, each in enumerate(found):
         span = each.span
         is_shared = span is not None and any(lies_in(span, family) for family in families)
-        key = (each.code, span.source, span.start, span.end) if span and is_shared else (number,)
+        key: tuple[object, ...] = (each.code, span.source, span.start, span.end) if span and is_shared else (number,)
         same.setdefault(key, []).append(each)
     for key, (first, *others) in same.items():
         told = f" So it is with {len(others)} more of its family." if others else ""

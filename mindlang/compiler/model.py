@@ -80,10 +80,10 @@ class Skill(Struct, frozen=True):
         """The skill under whose name its weights stand: itself, or the one that it is like."""
         return self.like or self.name
 
-    def said(self, edge: Edge) -> syntax.Fact:
+    def place_of(self, edge: Edge) -> Span:
         """The line that says where an edge leads: of a skill that is like another its own, where it has one."""
         own = syntax.of_form(self.declaration.facts, syntax.Sends)
-        return next((fact for fact in own if fact.stands_for and fact.name.text == edge.target), edge.fact)
+        return next((fact.span for fact in own if fact.stands_for and fact.name.text == edge.target), edge.fact.span)
 
     @property
     def subskills(self) -> tuple[str, ...]:
@@ -185,7 +185,7 @@ class Node(NamedTuple):
 def influence_graph(skills: Iterable[Skill]) -> DiGraph:
     """The skills by name in the order of the text, an edge for each line `influences`, with its `span`."""
     return DiGraph({
-        skill.name: {edge.target: {"span": skill.said(edge).span} for edge in skill.edges if edge.to == "skill"}
+        skill.name: {edge.target: {"span": skill.place_of(edge)} for edge in skill.edges if edge.to == "skill"}
         for skill in skills
     })  # fmt: skip
 
@@ -227,5 +227,5 @@ def hierarchy_graph(mind: Mind) -> DiGraph:
             connect(read[name], here, "reads", lines[name])
         for edge in skill.edges:
             relation = "influences" if edge.to == "skill" else "drives"
-            connect(here, Node(edge.to, edge.target), relation, skill.said(edge).span)
+            connect(here, Node(edge.to, edge.target), relation, skill.place_of(edge))
     return graph

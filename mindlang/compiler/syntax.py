@@ -423,7 +423,7 @@ class File(Struct, frozen=True):
     families: tuple[Span, ...] = ()
 
 
-def verb_of(fact: Fact) -> str:
+def verb_of(fact: Fact | Sends) -> str:
     """The word with which the line of a fact begins."""
     return type(fact).__name__.lower()
 

@@ -79,7 +79,7 @@ def parse(source: Source, findings: Findings) -> syntax.File:
             settings.append(line)
             is_below_header = False
         elif isinstance(line, syntax.Header) or not (line or is_below_header):  # what cannot be read may be a header
-            blocks.append(_Block(line, family))
+            blocks.append(_Block(line if isinstance(line, syntax.Header) else None, family))
             is_below_header = True
         elif is_below_header:
             blocks[-1].add(line, family, findings)

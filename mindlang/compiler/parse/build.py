@@ -1,7 +1,7 @@
 """Lark's tree of one line → the structs of `syntax`."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, cast
 
 from lark import Token, Tree, v_args
@@ -59,7 +59,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         """A rule of the tables."""
         if data in _FIELDS:
             form, fields = _FIELDS[data]
-            parts = {of: iter(syntax.of_form(children, of)) for of in fields.values()}
+            parts: dict[type, Iterator[Any]] = {of: iter(syntax.of_form(children, of)) for of in fields.values()}
             found = {field: next(parts[of], None) for field, of in fields.items()}
             return form(**found, span=self._span(meta))
         form = _FORMS[data]
@@ -82,7 +82,8 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     LEVEL = COMPARE
 
     def line(self, meta: Any, parts: list[Any]) -> Any:
-        return syntax.Repeated(*parts, self._span(meta)) if len(parts) > 1 else parts[0]
+        line, *families = parts
+        return syntax.Repeated(line, families[0], self._span(meta)) if families else line
 
     def name(self, meta: Any, parts: list[Any]) -> Any:
         return parts[-1]

@@ -49,9 +49,10 @@ def alike(
     reads = tuple(read.get(each, (each,))[0] for each in other.reads)
     sent = driven | influenced
     edges = tuple(_edge(edge, sent.get(edge.target, (edge.target, edge.to)), read) for edge in other.edges)
-    for form, become in ((Reads, reads), (Sends, tuple(edge.target for edge in edges))):
-        lines = of_form(own.facts, form)
-        if twice := next((fact for fact in lines if become.count(fact.name.text) > 1), None):
+    become = {Reads: reads, Sends: tuple(edge.target for edge in edges)}
+    for form, names_ in become.items():
+        lines: list[Any] = of_form(own.facts, form)
+        if twice := next((fact for fact in lines if names_.count(fact.name.text) > 1), None):
             message = f"{name} would {verb_of(twice).removesuffix('s')} {twice.name.text} twice."
             findings.error("repeated-input", twice.span, message, "Write something else in this line.")
     return model.Skill(name, other.function, reads, edges, False, own, other.owner)

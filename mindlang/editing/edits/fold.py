@@ -11,7 +11,7 @@ from mindlang.compiler.splice import Splice
 from mindlang.editing.insertion import first_line, newline
 from mindlang.editing.project import EditError, MindChange, Project
 
-FEWEST = 3  # lines or declarations that become a family
+FEWEST_MEMBERS = 3  # lines or declarations that become a family
 LETTERS = "NMKLPQRSTUVWXYZ"
 _NUMBER = re.compile(r"(?<=[A-Za-z_])(0|[1-9]\d*)(?![A-Za-z0-9])")  # at the end of a name or of a part of it
 Lines = list[str]  # of a declaration, or one of a fact
@@ -69,14 +69,15 @@ def _folded(items: Sequence[Lines]) -> Iterator[tuple[range, Lines]]:
     place = 0
     while place < len(items):
         count = _count(items[place:])
-        count = count if count >= FEWEST else 1
-        yield range(place, place + count), _family(*items[place : place + 2], count) if count > 1 else items[place]
+        count = count if count >= FEWEST_MEMBERS else 1
+        lines = _family(items[place], items[place + 1], count) if count > 1 else items[place]
+        yield range(place, place + count), lines
         place += count
 
 
 def _count(items: Sequence[Lines]) -> int:
     """How many items from the first on differ in nothing but a number, one more from each to the next."""
-    if len(items) < FEWEST or not (wanted := _growing(items[0], items[1])):
+    if len(items) < FEWEST_MEMBERS or not (wanted := _growing(items[0], items[1])):
         return 1
     first = _numbers(items[0])
     count = 1
