@@ -73,7 +73,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         """A word."""
         return Name(str(token), self._span(token))
 
-    TITLE = PART = WHOLE = TASK = COMPUTED = NUMBERED = GYMNASIUM = ENVIRONMENT = FROM = TO = FACING = NAME
+    TITLE = PART = WHOLE = TASK = COMPUTED = NUMBERED = SEVERAL = GYMNASIUM = ENVIRONMENT = FROM = TO = FACING = NAME
 
     def COMPARE(self, token: Token) -> str:  # noqa: N802
         """A sign between two values."""
