@@ -73,8 +73,7 @@ def apply_edit(
     Files that are open in an editor have texts that are `unsaved`.
     """
     _refuse_under_alias(change)
-    if not change.of_families:
-        _refuse_in_families(project, change)
+    refuse_in_families(project, change)
     touched = {id(splice.source): splice.source for splice in change.splices}
     changed = {source.path: spliced(source, change.splices) for source in touched.values()}
     texts = {**unsaved, **changed, **change.created}
@@ -109,9 +108,9 @@ def _refuse_under_alias(change: MindChange) -> None:
             raise EditError(message, hint, Span(splice.source, splice.start, splice.end))
 
 
-def _refuse_in_families(project: Project, change: MindChange) -> None:
-    """EditError where the edit changes a line that stands for several: it would change all of them."""
-    for family in (family for file in project.files for family in file.families):
+def refuse_in_families(project: Project, change: MindChange) -> None:
+    """EditError where an edit changes a line that stands for several and does not know it: all would be others."""
+    for family in () if change.of_families else (family for file in project.files for family in file.families):
         first, *_ = family.text.split()
         for splice in (each for each in change.splices if each.source is family.source):
             begins = splice.start == splice.end == family.end and (splice.text.split() or [""])[0] in VERBS

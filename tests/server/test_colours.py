@@ -27,7 +27,7 @@ TOKENS = {
     "TEXT": "string.quoted.double",
     "ITS": FUNCTION,
     "ENVIRONMENT": "string.unquoted",
-    **dict.fromkeys(("COMPUTED", "NUMBERED", "GYMNASIUM"), KIND),
+    **dict.fromkeys(("COMPUTED", "NUMBERED", "SEVERAL", "GYMNASIUM"), KIND),
     **dict.fromkeys(("FROM", "TO", "FACING"), KEY),
     **dict.fromkeys(("EXTREME", "AND", "OR", "TICK", "LEVEL"), WORD),
     **dict.fromkeys(("SIGN", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
