@@ -127,13 +127,15 @@ def random_graph(draw: st.DrawFn, fewest_hidden: int = 0, alike: bool = True) ->
     for number in reversed(range(count - 1)):
         owners = [each for each in skills[number + 1 :] if each.function.learns and not each.like]
         if alike and owners and draw(st.integers(0, 4)) == 0:
-            skills[number] = draw(_alike(f"S{number}", draw(st.sampled_from(owners)), width))
+            targets = [("skill", i) for i in range(number + 1, count)]
+            targets += [("actuator", i) for i in range(len(actuators))] + [("memory", i) for i in range(len(memories))]
+            skills[number] = draw(_alike(f"S{number}", draw(st.sampled_from(owners)), width, targets))
     return Graph(1 / 60, Disc(), "S0", sensors, memories, actuators, tuple(skills), (), ())
 
 
 @st.composite
-def _alike(draw: st.DrawFn, name: str, owner: Skill, width: int) -> Skill:
-    """A skill that is like another, and reads something else."""
+def _alike(draw: st.DrawFn, name: str, owner: Skill, width: int, targets: list[tuple[str, int]]) -> Skill:
+    """A skill that is like another, and reads something else, and may send to something else."""
     count = len(owner.inputs)
     inputs = tuple(draw(st.lists(st.integers(0, width - 1), unique=True, min_size=count, max_size=count)))
     instead = dict(zip(owner.inputs, inputs, strict=True))
@@ -144,9 +146,19 @@ def _alike(draw: st.DrawFn, name: str, owner: Skill, width: int) -> Skill:
     def other_gate(gate: Gate) -> Gate:
         return Gate(other(gate.when), None if gate.otherwise is None else other(gate.otherwise))
 
+    sent = [(edge.to, edge.target) for edge in owner.edges]
+    if draw(st.booleans()):
+        sent = draw(st.permutations(targets))[: len(sent)]
     edges = tuple(
-        replace(edge, value=other(edge.value), gate=other_gate(edge.gate) if edge.gate else None)
-        for edge in owner.edges
+        replace(
+            edge,
+            to=to,
+            target=target,
+            value=other(edge.value),
+            gate=other_gate(edge.gate) if edge.gate else None,
+            cuts=edge.cuts if to == "skill" else 0.0,
+        )
+        for edge, (to, target) in zip(owner.edges, sent, strict=True)
     )
     return Skill(name, owner.function, inputs, edges, like=owner.name, chooses=owner.chooses)
 

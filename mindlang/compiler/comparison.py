@@ -11,6 +11,7 @@ from msgspec import Struct
 
 from mindlang.compiler import syntax
 from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.families import said
 from mindlang.compiler.format import spaced
 from mindlang.compiler.model import Lesson, Mind, Part, Skill, Task
 from mindlang.compiler.names import Names
@@ -145,8 +146,9 @@ def _parts(header: syntax.Header, of: Any) -> tuple[Any, dict[str, Sequence[Any]
     """The resolved header of a declaration, and the values that its facts have become, by verb and in their order."""
     match of:
         case Skill(like=like) if like:
-            reads = syntax.of_form(of.declaration.facts, syntax.Reads)
-            return like, {"reads": [(fact.name.text, fact.stands_for and fact.stands_for.text) for fact in reads]}
+            lines = (fact for fact in of.declaration.facts if isinstance(fact, syntax.Reads | syntax.Sends))
+            instead = [(syntax.verb_of(f), f.name.text, f.stands_for and f.stands_for.text) for f in lines]
+            return like, {"reads drives influences": instead}
         case Skill():
             how = {"chooses": [True] * of.chooses, "stays": [True] * of.frozen}
             return of.function, {"reads": of.reads, "drives influences": of.edges, **how}
@@ -171,7 +173,7 @@ def _header(header: syntax.Header, names: Names) -> str:
 
 
 def _written(node: Any) -> str:
-    return spaced(node.span.text)
+    return spaced(said(node))
 
 
 def _meaning(node: Any) -> Any:

@@ -17,6 +17,7 @@ from mindrun.numbers.short_repr import ShortRepr
 from msgspec import structs
 
 from mindlang.compiler.diagnostic import Diagnostic, Findings, near_file
+from mindlang.compiler.families import each_family_once
 from mindlang.compiler.lower import lower
 from mindlang.compiler.model import Mind
 from mindlang.compiler.names import declared_names
@@ -109,11 +110,12 @@ def compile_source(source: Source, path: Path = Path("-"), texts: Mapping[Path, 
 
         findings.diagnostics += mistakes(graph.skills, mind, source.folder)
     sources = tuple(file.source for file in parsed)
+    found = each_family_once(findings.diagnostics, [family for file in parsed for family in file.families])
 
     def place(of: Diagnostic) -> tuple[int, int]:
         return (sources.index(of.span.source), of.span.start) if of.span else (-1, 0)
 
-    return Compiled(graph, mind, tuple(sorted(findings.diagnostics, key=place)), sources)
+    return Compiled(graph, mind, tuple(sorted(found, key=place)), sources)
 
 
 @dataclass(slots=True)

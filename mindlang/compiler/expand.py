@@ -16,6 +16,7 @@ from networkx import DiGraph
 
 from mindlang.compiler import syntax
 from mindlang.compiler.diagnostic import Findings, a
+from mindlang.compiler.families import said
 from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
 from mindlang.compiler.names import Names
 from mindlang.compiler.references import mentions_in
@@ -88,7 +89,7 @@ def number_writer(names: Names, values: Mapping[str, Amount], tick_seconds: floa
     words = frozenset(name.rpartition(".")[2] for name in values)  # all that stands of a name in a file with an alias
 
     def written(line: Any) -> Any:
-        text = line.span.text
+        text = said(line)
         has_names = words and not words.isdisjoint(_WORD.findall(text))
         if not has_names and "per" not in text:  # as most lines
             return line
@@ -175,4 +176,4 @@ def _subject(fact: Fact) -> Hashable:
 
 def _text(node: Phrase | syntax.When | None) -> str:
     """The source text with single spaces; empty for None."""
-    return " ".join(node.span.text.split()) if node else ""
+    return " ".join(said(node).split()) if node else ""

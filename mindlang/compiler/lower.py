@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 from mindrun.graph import graph
 
 from mindlang.compiler import model
+from mindlang.compiler.families import said
 from mindlang.compiler.format import spaced
 from mindlang.compiler.hierarchy import topological_order
 from mindlang.compiler.references import DRIVABLE_NOUNS
@@ -98,7 +99,7 @@ def _end(end: model.End, events: dict[Any, int], places: Places) -> graph.End:
     event = None if end.event is None else _index(end.event, events)
     if end.when is None:
         return graph.End(event, end.times, None, end.succeeds)
-    text = spaced(f"ends {end.when.span.text}").removeprefix("ends when ")
+    text = spaced(f"ends {said(end.when)}").removeprefix("ends when ")
     return graph.End(event, end.times, lower_condition(end.when, places), end.succeeds, text)
 
 
@@ -109,7 +110,7 @@ def _index(value: T, known: dict[T, int]) -> int:
 
 def _reward(reward: model.Reward, events: dict[Any, int], places: Places) -> graph.Reward:
     return graph.Reward(
-        spaced(reward.fact.span.text),
+        spaced(said(reward.fact)),
         _program(reward.amount, places),
         None if reward.on is None else _index(reward.on, events),
         None if reward.each is None else places.readings[reward.each],

@@ -75,8 +75,8 @@ class Edge(Struct, frozen=True):
 class Skill(Struct, frozen=True):
     """A skill; `reads` are names of sensors and memories; one that is `frozen` is not taught, one may `chooses` one.
 
-    One that is `like` another has that one's function and weights; what it reads stands in that one's order, and its
-    edges are said there.
+    One that is `like` another has that one's function and weights; what it reads and sends stands in that one's order,
+    and the lines of its edges are that one's.
     """
 
     name: str
@@ -97,6 +97,11 @@ class Skill(Struct, frozen=True):
     def owner(self) -> str:
         """The skill under whose name its weights stand: itself, or the one that it is like."""
         return self.like or self.name
+
+    def place_of(self, edge: Edge) -> Span:
+        """The line that says where an edge leads: of a skill that is like another its own, where it has one."""
+        own = syntax.of_form(self.declaration.facts, syntax.Sends)
+        return next((fact.span for fact in own if fact.stands_for and fact.name.text == edge.target), edge.fact.span)
 
     @property
     def subskills(self) -> tuple[str, ...]:
@@ -199,7 +204,7 @@ class Node(NamedTuple):
 def influence_graph(skills: Iterable[Skill]) -> DiGraph:
     """The skills by name in the order of the text, an edge for each line `influences`, with its `span`."""
     return DiGraph({
-        skill.name: {edge.target: {"span": edge.fact.span} for edge in skill.edges if edge.to == "skill"}
+        skill.name: {edge.target: {"span": skill.place_of(edge)} for edge in skill.edges if edge.to == "skill"}
         for skill in skills
     })  # fmt: skip
 
@@ -244,5 +249,5 @@ def hierarchy_graph(mind: Mind) -> DiGraph:
             connect(read[name], here, "reads", lines[name])
         for edge in skill.edges:
             relation = "influences" if edge.to == "skill" else "drives"
-            connect(here, Node(edge.to, edge.target), relation, edge.fact.span, edge.over)
+            connect(here, Node(edge.to, edge.target), relation, skill.place_of(edge), edge.over)
     return graph

@@ -70,7 +70,7 @@ class Names:
         """The noun with which the name is declared; a name that is not is reported."""
         if noun := self.noun_of(name.text, nouns):
             return noun
-        if name.text in self.unread:
+        if not self.unread.isdisjoint((name.text, name.span.text)):  # that of a member stands in no line by itself
             return None
         wanted = listed(nouns)
         other = self.noun_of(name.text, [noun for noun in NOUN_USES if noun not in nouns])

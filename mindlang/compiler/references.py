@@ -92,7 +92,9 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
             yield name, READABLE_NOUNS
             yield from _if_any(stands_for, *READABLE_NOUNS)
         case syntax.Sends(name):
-            yield name, DRIVABLE_NOUNS if isinstance(line, syntax.Drives) else ("skill",)
+            nouns = DRIVABLE_NOUNS if isinstance(line, syntax.Drives) else ("skill",)
+            yield name, nouns
+            yield from _if_any(line.stands_for, *nouns)
             over = line.over or () if isinstance(line, syntax.Influences) else ()
             yield from ((each, DRIVABLE_NOUNS) for each in over)
             yield from _in_expressions(*syntax.expressions_in(line))

@@ -188,20 +188,27 @@ class Reads(Struct, frozen=True):
 
 
 class Sends(Struct, frozen=True):
-    """The common part of `drives` and `influences`: to whom something is sent, which value, and when."""
+    """The common part of `drives` and `influences`: to whom something is sent, which value, and when.
+
+    With `for NAME`, to whom a skill sends instead of that, which the skill sends to that this one is like.
+    """
 
     name: Name
     at: Expression | None
     gate: Gate | None
     span: Span
+    stands_for: Name | None = None
 
 
 class Drives(Sends, frozen=True):
-    """`drives NAME [at EXPRESSION] [when CONDITION …]`"""
+    """`drives NAME [at EXPRESSION] [when CONDITION …]`, or `drives NAME for NAME`"""
 
 
 class Influences(Sends, frozen=True):
-    """`influences NAME [over NAME [and NAME …]] [at EXPRESSION] [when CONDITION …] [cuts below AMOUNT]`"""
+    """`influences NAME [over NAME [and NAME …]] [at EXPRESSION] [when CONDITION …] [cuts below AMOUNT]`.
+
+    Or `influences NAME for NAME`, of a skill that is like another.
+    """
 
     cuts: Amount | None = None
     over: tuple[Name, ...] | None = None
@@ -430,15 +437,33 @@ Setting = Use | Master | Tick | Version | Unit | Number
 Line = Setting | Header | Fact
 
 
+class Family(Struct, frozen=True):
+    """`where LETTER is AMOUNT to AMOUNT`: the numbers that stand for the letter at the end of names."""
+
+    letter: Name
+    first: Amount
+    last: Amount
+    span: Span
+
+
+class Repeated(Struct, frozen=True):
+    """A line that stands for several, one for each number of its family."""
+
+    line: Header | Fact
+    family: Family
+    span: Span
+
+
 class File(Struct, frozen=True):
-    """A whole source."""
+    """A whole source; a declaration or a fact that stands for several is written out, and `families` is where it is."""
 
     source: Source
     settings: tuple[Setting, ...]
     declarations: tuple[Declaration, ...]
+    families: tuple[Span, ...] = ()
 
 
-def verb_of(fact: Fact) -> str:
+def verb_of(fact: Fact | Sends) -> str:
     """The word with which the line of a fact begins."""
     return type(fact).__name__.lower()
 

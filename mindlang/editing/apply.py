@@ -17,7 +17,9 @@ from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Diagnostic, errors
 from mindlang.compiler.source import MAX_SOURCE_BYTES, Span, decode_source, encode_source
 from mindlang.compiler.splice import spliced
+from mindlang.compiler.syntax import NOUNS, VERBS
 from mindlang.editing import transaction
+from mindlang.editing.insertion import first_line
 from mindlang.editing.lock_update import UpdatedLocks, new_names, update_locks
 from mindlang.editing.project import EditError, MindChange, Project
 from mindlang.editing.world_names import now_called, renamed
@@ -71,6 +73,7 @@ def apply_edit(
     Files that are open in an editor have texts that are `unsaved`.
     """
     _refuse_under_alias(change)
+    refuse_in_families(project, change)
     touched = {id(splice.source): splice.source for splice in change.splices}
     changed = {source.path: spliced(source, change.splices) for source in touched.values()}
     texts = {**unsaved, **changed, **change.created}
@@ -103,6 +106,18 @@ def _refuse_under_alias(change: MindChange) -> None:
             if load(splice.source.path).graph is None:
                 hint = f"It is no mind by itself, which mindc edit could change: change {name} by hand."
             raise EditError(message, hint, Span(splice.source, splice.start, splice.end))
+
+
+def refuse_in_families(project: Project, change: MindChange) -> None:
+    """EditError where an edit changes a line that stands for several and does not know it: all would be others."""
+    for family in () if change.of_families else (family for file in project.files for family in file.families):
+        first, *_ = family.text.split()
+        for splice in (each for each in change.splices if each.source is family.source):
+            begins = splice.start == splice.end == family.end and (splice.text.split() or [""])[0] in VERBS
+            if (splice.start < family.end and splice.end > family.start) or (begins and first in NOUNS):
+                message = "This line stands for several, and the edit is about one of them."
+                hint = f"Write them out first: {family.source.edit('unfold')}"
+                raise EditError(message, hint, replace(family, end=first_line(family).end))
 
 
 def _refuse_captured(project: Project, change: MindChange, graph: Graph) -> None:

@@ -113,8 +113,10 @@ def _with_copy(lock: Lock, unshared: Unshared, graph: Graph) -> dict[str, Entry]
     if unshared.owner in lock:
         owned = found[unshared.owner]
         reads = (text.partition(":") for text in owned.signature.reads)
-        own = tuple(f"{unshared.instead.get(name, name)}{colon}{wide}" for name, colon, wide in reads)
-        found[unshared.skill] = replace(owned, skill=unshared.skill, signature=replace(owned.signature, reads=own))
+        read = tuple(f"{unshared.reads.get(name, name)}{colon}{wide}" for name, colon, wide in reads)
+        sent = tuple(unshared.sends.get(name, name) for name in owned.signature.sends)
+        own = replace(owned.signature, reads=read, sends=sent)
+        found[unshared.skill] = replace(owned, skill=unshared.skill, signature=own)
     return found
 
 

@@ -28,6 +28,7 @@ from mindlang.compiler.syntax import (
     File,
     Influences,
     Master,
+    Name,
     Number,
     Reads,
     of_form,
@@ -66,22 +67,30 @@ class Replaced:
 
 @dataclass(frozen=True, slots=True)
 class Unshared:
-    """A skill that was like its `owner` and now stands for itself; what it reads `instead`, by the owner's inputs."""
+    """A skill that was like its `owner` and now stands for itself.
+
+    What it `reads` and to what it `sends` instead, by the names that the owner has for it.
+    """
 
     skill: str
     owner: str
-    instead: Mapping[str, str]
+    reads: Mapping[str, str]
+    sends: Mapping[str, str]
 
 
 @dataclass(frozen=True, slots=True)
 class MindChange:
-    """A change of a mind: `splices` of the sources, `created` files, and the names that the weights have to follow."""
+    """A change of a mind: `splices` of the sources, `created` files, and the names that the weights have to follow.
+
+    One that is `of_families` knows that a line may stand for several.
+    """
 
     splices: tuple[Splice, ...]
     renamed: tuple[Renamed, ...] = ()
     replaced: Replaced | None = None
     unshared: Unshared | None = None
     created: Mapping[Path, str] = field(default_factory=dict)
+    of_families: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -206,8 +215,9 @@ class Project:
             seen |= set(other.paths)
 
     def parents(self, skill: str) -> list[Declaration]:
-        """The skills that say that they influence a skill."""
-        return [parent.declaration for parent in self.mind.skills if skill in parent.subskills and not parent.like]
+        """The skills that say that they influence a skill, or another in its place."""
+        declared = (each.declaration for each in self.mind.skills)
+        return [each for each in declared if any(_influenced(each, skill))]
 
     def own_skill(self, name: str) -> Declaration:
         """The declaration of a skill; EditError where it is like another, of which only what it reads is its own."""
@@ -229,11 +239,15 @@ class Project:
     def places(self, skill: str) -> Iterator[Mention]:
         """The mentions that place a skill in the hierarchy: as a subskill, and as the master."""
         for parent in self.parents(skill):
-            yield from (
-                Mention("skill", f.name, parent) for f in of_form(parent.facts, Influences) if f.name.text == skill
-            )
+            yield from (Mention("skill", name, parent) for name in _influenced(parent, skill))
         masters = (setting.name for setting in self.main.settings if isinstance(setting, Master))
         yield from (Mention("skill", name, None) for name in masters if name.text == skill)
+
+
+def _influenced(parent: Declaration, skill: str) -> Iterator[Name]:
+    """The places where a skill's lines `influences` name another."""
+    for fact in of_form(parent.facts, Influences):
+        yield from (name for name in (fact.name, fact.stands_for) if name and name.text == skill)
 
 
 def open_project(compiled: Compiled) -> Project:

@@ -11,6 +11,7 @@ from mindrun.files.regular_files import read_regular
 
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Diagnostic
+from mindlang.compiler.families import each_family_once
 from mindlang.compiler.references import mentions
 from mindlang.compiler.source import Source, encode_source
 from mindlang.compiler.splice import Splice, spliced
@@ -37,12 +38,13 @@ def lint(compiled: Compiled, codes: Collection[str] | None = None) -> list[Diagn
     held = [rule for code, rule in all_rules().items() if codes is None or code in codes]
     found = [(rule, finding) for rule in held for finding in rule.check(about)]
     named = _named_elsewhere(compiled) if any(rule.elsewhere for rule, _ in found) else set()
-    own = [
+    own = (
         Diagnostic(rule.code, each.message, each.span, each.hint, each.labels, "warning", each.fix)
         for rule, each in sorted(found, key=lambda pair: (pair[1].span.start, pair[0].code))
         if each.span.source is compiled.sources[0] and not (rule.elsewhere and each.span.text in named)
-    ]
-    return [*compiled.diagnostics, *(each for each in own if not _is_silenced(each))]
+    )
+    shown = each_family_once(own, about.mind.files[0].families)
+    return [*compiled.diagnostics, *(each for each in shown if not _is_silenced(each))]
 
 
 def _named_elsewhere(compiled: Compiled) -> set[str]:

@@ -133,7 +133,7 @@ class Worlds:
         fixed = [edge for edge in skill.edges if edge.programs or edge.cuts or edge.over]
         sends = {"sends": sorted(map(self._sends, fixed)), **({"chooses": "one"} if skill.chooses else {})}
         if skill.like:
-            return {"like": skill.like, "reads": self._read_instead(skill), **sends}
+            return {"like": skill.like, **self._instead(skill), **sends}
         if genes(skill):
             return sends
         reads = list(dict.fromkeys(self._names[index] for index in skill.inputs))
@@ -153,12 +153,17 @@ class Worlds:
             words += [f"otherwise {infix(edge.gate.otherwise, self._leaf)}"] if edge.gate.otherwise is not None else []
         return " ".join([*words, *([f"cuts below {number(edge.cuts)}"] if edge.cuts else [])])
 
-    def _read_instead(self, skill: Skill) -> list[str]:
-        """Readings of a skill that is like another, as `own for other`; the other's line in a lock has the order."""
+    def _instead(self, skill: Skill) -> dict[str, list[str]]:
+        """Readings and targets of a skill that is like another, as `own for other`; the other's line has the order."""
         owner = next(each for each in self.graph.skills if each.name == skill.like)
-        pairs = zip(skill.inputs, owner.inputs, strict=True)
-        names = dict.fromkeys((self._names[own], self._names[other]) for own, other in pairs)
-        return [f"{own} for {other}" for own, other in names if own != other]
+        read = [(self._names[own], self._names[other]) for own, other in zip(skill.inputs, owner.inputs, strict=True)]
+        edges = zip(skill.edges, owner.edges, strict=True)
+        sent = [tuple(self.graph.named(edge.to, edge.target) for edge in pair) for pair in edges]
+        instead = {
+            word: [f"{own} for {other}" for own, other in dict.fromkeys(pairs) if own != other]
+            for word, pairs in (("reads", read), ("sends to", sent))
+        }
+        return instead if instead["sends to"] else {"reads": instead["reads"]}
 
     def _text(self, calls: str) -> str:
         """A hash of a procedure's module; empty where it does not count or cannot be read."""

@@ -22,21 +22,22 @@ from mindrun.sim.outside import making
 
 from mindlang.breakpoints.breakpoint import FAULT, OF, ROBOT_WORDS
 from mindlang.compiler import syntax
+from mindlang.compiler.families import letter_in
 from mindlang.compiler.parse.shape import Start, grammar, parse_line
 from mindlang.compiler.references import names_in
 from mindlang.compiler.resolve.curricula import MEASURED, SWITCHES, USING
 from mindlang.compiler.resolve.kinds import about
 from mindlang.compiler.source import Source
-from mindlang.compiler.syntax import Amount, Declaration, Header, Name, Phrase, Teaches
+from mindlang.compiler.syntax import Amount, Declaration, Header, Phrase, Teaches
 from mindlang.editing.insertion import OWNERS
 from mindlang.files import files_below
 from mindlang.server.offers import (
     Offer,
     functions,
-    inputs_of,
     keys,
     kinds_of,
     names,
+    said_of,
     things,
     units,
     units_of,
@@ -60,7 +61,7 @@ TRIED = {"NAME": "tried", "TITLE": "Tried"}  # names that are put where the gram
 # Words that the grammar takes in more lines than they mean something in: those lines, and how the word is offered.
 WORDS: Mapping[str, Mapping[str, str]] = {
     "per": {"rewards": "per tick", "fails": "per"},
-    "for": {"rewards": "for each", "teaches": "for", "reads": "for"},
+    "for": {"rewards": "for each", "teaches": "for", "reads": "for", "drives": "for", "influences": "for"},
     "like": {"skill": "like", "task": "like", "scene": "like"},
     "to": {"draws": "to", "varies": "to"},
     "tick": {"rewards": "tick", "fails": "tick", "stop": "tick"},
@@ -229,9 +230,9 @@ def _units(line: CursorLine, last: Sequence[Any]) -> Iterator[Offer]:
 def _range_words(line: CursorLine, last: Sequence[Any], end: int) -> Iterator[Offer]:
     """The words of a range behind a number that may be one."""
     said = said_argument(last, line.above)
-    if said and said.meaning and said.meaning.shape == "span" and said.argument.span.end == end:
+    if said and said.meaning and said.meaning.shape in ("span", "list") and said.argument.span.end == end:
         match said.argument.value:
-            case syntax.Numbers():
+            case syntax.Numbers((_,)):
                 yield Offer("to", "word")
             case syntax.Range(by=None):
                 yield Offer("by", "word")
@@ -312,9 +313,9 @@ def _sayable(line: CursorLine, nodes: Sequence[Any], known: list[Offer]) -> list
             return [each for each in known if each.sort not in ("actuator", "draw") and each.label != name.text]
         case syntax.Contains():
             return [each for each in known if each.sort in ("number", "draw")]
-        case syntax.Reads(_, Name()):
-            inputs = inputs_of(line.view, own.like.text) if own and own.like else ()
-            return [each for each in known if each.label in inputs]
+        case syntax.Reads() | syntax.Sends() as fact if fact.stands_for is nodes[-1]:
+            replaceable = said_of(line.view, own.like.text, type(fact)) if own and own.like else ()
+            return [each for each in known if each.label in replaceable]
         case syntax.Reads() | syntax.Sends() as fact if fact.name is nodes[-1]:
             but = line.said(type(fact)) | ({own.name.text} if own else set())
             return [each for each in known if each.label not in but]
@@ -336,5 +337,7 @@ def _words(line: CursorLine, accepted: set[str]) -> Iterator[Offer]:
     for sort, said in _literals().items():
         for word in said if sort in accepted - keys_too else ():
             label = WORDS.get(word, {line.first: word}).get(line.first, "")
-            if label and (is_like or (line.first, word) != ("reads", "for")):
+            if word == "where" and not letter_in(line.code):
+                continue  # no family without a letter
+            if label and (is_like or word != "for" or line.first not in ("reads", "drives", "influences")):
                 yield from words(label)

@@ -11,7 +11,7 @@ from mindrun.numbers.quantity import Quantity
 
 from mindlang.compiler.names import declared_things
 from mindlang.compiler.source import comment_of
-from mindlang.compiler.syntax import Declaration, Draws, Reads, Varies, of_form
+from mindlang.compiler.syntax import Declaration, Draws, Reads, Sends, Varies, of_form
 from mindlang.explaining import markdown
 from mindlang.explaining.kinds import kind_article
 from mindlang.explaining.parameters import meaning, parameter
@@ -62,15 +62,15 @@ def kinds_of(noun: str) -> list[Offer]:
     return [Offer(name, "kind", noun, markdown.article_card(kind_article(noun, name))) for name in sorted(kinds(noun))]
 
 
-def inputs_of(view: MindView, skill: str) -> set[str]:
-    """The names that a skill reads, by its own lines and by those of the skills that it is like."""
+def said_of(view: MindView, skill: str, form: type[Reads | Sends]) -> set[str]:
+    """The names behind a verb of a skill, by its own lines and by those of the skills that it is like."""
     found: set[str] = set()
     replaced: set[str] = set()
     declared = dict(view.names.declarations("skill"))
     while (declaration := declared.pop(skill, None)) is not None:
-        reads = [fact for fact in declaration.facts if isinstance(fact, Reads)]
-        found |= {fact.name.text for fact in reads} - replaced
-        replaced |= {fact.stands_for.text for fact in reads if fact.stands_for}
+        facts = of_form(declaration.facts, form)
+        found |= {fact.name.text for fact in facts} - replaced
+        replaced |= {fact.stands_for.text for fact in facts if fact.stands_for}
         skill = declaration.header.like.text if declaration.header.like else ""
     return found
 

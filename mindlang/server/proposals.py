@@ -15,6 +15,7 @@ from mindlang.compiler.hierarchy import with_ancestors, with_descendants
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Declaration, Drives, Fact, Influences, Reads, of_form
+from mindlang.editing.apply import refuse_in_families
 from mindlang.editing.project import EditError, Project, has_outputs, kind_of
 from mindlang.lint.lint import apply_safe_fixes
 from mindlang.server.changing import proposed
@@ -85,7 +86,7 @@ def proposals(selection: Selection) -> list[Proposal]:
 
 def _is_possible(project: Project, proposal: Proposal) -> bool:
     try:
-        proposed(project, proposal.edit, proposal.arguments)
+        refuse_in_families(project, proposed(project, proposal.edit, proposal.arguments))
     except EditError:
         return False
     return True
@@ -152,7 +153,9 @@ def _of_header(project: Project, declaration: Declaration) -> Iterator[Proposal]
 
 
 def _of_file(selection: Selection) -> Iterator[Proposal]:
-    """The selected declarations moved to a file of their own, and a new skill: every actuator at its neutral value."""
+    """The selected declarations moved to a file of their own, a new skill with neutral commands, and families."""
+    yield Proposal("Make families of what differs in a number", "fold")
+    yield Proposal("Write out the families", "unfold")
     if chosen := selection.declarations:
         names = [f"{each.header.noun.text}:{each.header.name.text}" for each in chosen]
         title = f"Move {listed((each.header.name.text for each in chosen), 'and')} to a new file"

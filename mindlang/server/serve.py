@@ -13,6 +13,8 @@ from mindrun.errors import MindError
 from pygls.exceptions import JsonRpcException
 
 from mindlang.compiler.diagnostic import Diagnostic, Fix
+from mindlang.compiler.families import is_of_family
+from mindlang.compiler.references import Mention
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice, spliced
 from mindlang.editing.edits import edit, names
@@ -118,7 +120,12 @@ def prepared(ls: MindServer, params: types.PrepareRenameParams) -> types.Prepare
         project(ls.session.workspace, view)
     except EditError as error:
         raise failed(error) from error
-    return types.PrepareRenamePlaceholder(ls.session.lsp.range(mention.name.span), mention.name.text)
+    return types.PrepareRenamePlaceholder(ls.session.lsp.range(mention.name.span), _name_of(mention))
+
+
+def _name_of(mention: Mention) -> str:
+    """The name by which something is renamed: a family by that of its line."""
+    return mention.name.span.text if is_of_family(mention.name) else mention.name.text
 
 
 def renamed(ls: MindServer, params: types.RenameParams) -> types.WorkspaceEdit | None:
@@ -127,7 +134,7 @@ def renamed(ls: MindServer, params: types.RenameParams) -> types.WorkspaceEdit |
     mention = view.mention_at(path, offset)
     if mention is None or params.new_name == mention.name.text:
         return None
-    arguments = {"old": mention.name.text, "new": params.new_name, "noun": mention.noun}
+    arguments = {"old": _name_of(mention), "new": params.new_name, "noun": mention.noun}
     try:
         outcome, edit = ls.outcome(path, "rename", arguments)
     except MindError as error:

@@ -18,6 +18,7 @@ FOLDER = Path("/nowhere/minds")
 MAIN, PARTS = FOLDER / "main.mind", FOLDER / "parts.mind"
 SKILLS = ("Go", "Avoid", "Go+Avoid", "Collect", "Fetch", "Grab", "Wait")
 LIKE = "GoHome"  # the skill that is like another, where there is one
+STEPS = "skill StepN is mlp where N is 1 to 3"  # a family, where there is one
 FUNCTIONS = (
     "mlp hidden 2",
     "mlp hidden 1 width 4",
@@ -66,6 +67,7 @@ SENSORS = {
     "eye": [
         "sensor eye is range_finder at 0 30 330 deg",
         "sensor eye is range_finder at -30 deg 0 deg 30 deg range 12",
+        "sensor eye is range_finder at 30 to -30 by 15 deg",
     ],
     "charge": ["sensor charge is battery"],
     "beat": ["sensor beat is sine period 2 s", "sensor beat is sine period 0.5 s"],
@@ -198,7 +200,7 @@ def a_mind(rng: Random) -> Texts:
     apart = [lines for lines in declared if rng.random() < 0.3] if rng.random() < 0.3 else []
     settings = [
         ["tick 1/60 s"],
-        [f"master {rng.choice([_name(lines) for lines in declared if _noun(lines) == 'skill'])}"],
+        [f"master {rng.choice([_name(lines) for lines in declared if _noun(lines) == 'skill' and lines[0] != STEPS])}"],
     ]
     main = [*settings, *([['use "parts.mind"']] if apart else []), *(lines for lines in declared if lines not in apart)]
     style, numbers = _Style(rng), count()
@@ -261,12 +263,16 @@ def _declarations(rng: Random) -> list[list[str]]:
     learners = [skill for skill in skills if functions[skill].startswith(("mlp", "elman", "gru"))]
     if learners and rng.random() < 0.4:
         blocks.append(_like(rng, next(block for block in blocks if block[0].startswith(f"skill {learners[0]} "))))
+    if is_family := rng.random() < 0.3:
+        above = next(block for block in blocks if block[0].startswith(f"skill {skills[0]} "))
+        above += ["reads pulseN where N is 2 to 4", "influences StepK at 1/2 where K is 1 to 2"]
+        blocks += [["sensor pulseN is clock period 2 s where N is 1 to 4"], [STEPS, "reads pulseN", "drives mast"]]
     if learners:
         lessons = [
             f"teaches {skill} on {rng.choice(tasks)} {rng.choice(['for', 'until score > 3 for at most'])} "
             f"{rng.randint(1, 9)} generations" + rng.choice(["", " from scratch"])
             for skill in rng.sample(learners, rng.randint(0, len(learners)))
-        ]
+        ] + [f"teaches StepN on {rng.choice(tasks)} for 2 generations where N is 1 to 3"] * is_family
         learner = rng.choice(list(kinds("curriculum")))
         blocks.append(
             [_more(rng, "curriculum", f"curriculum School is {learner} population {rng.randint(8, 9)}"), *lessons]
@@ -334,12 +340,16 @@ def _skill(rng: Random, name: str, function: str, below: list[str]) -> list[str]
 
 
 def _like(rng: Random, owner: list[str]) -> list[str]:
-    """A skill with the weights of another, that reads something else than it, or the same."""
+    """A skill with the weights of another, that reads and drives something else than it, or the same."""
     reads = [fact.split()[1] for fact in owner if fact.startswith("reads ")]
     mine = [reading for reading in reads if reading in NARROW]
     others = sorted(NARROW - {*reads})
     instead = zip(rng.sample(others, len(mine)), mine, strict=True)
     lines = [f"reads {other} for {reading}" for other, reading in instead if rng.random() < 0.7]
+    driven = [fact.split()[1] for fact in owner if fact.startswith("drives ")]
+    free = sorted({*ACTUATORS, "mood"} - {*driven})
+    instead = zip(rng.sample(free, len(driven)), driven, strict=True)
+    lines += [f"drives {other} for {actuator}" for other, actuator in instead if rng.random() < 0.5]
     return [f"skill {LIKE} is like {owner[0].split()[1]}", *lines]
 
 

@@ -92,6 +92,7 @@ def anything(draw: st.DrawFn) -> Asked:
         "disconnect": {"skill": skill, "target": word},
         "encapsulate": {"skill": skill, "new": st.sampled_from(FREE) | word, "with_": several, "reads": several},
         "extract": {"parent": skill, "new": st.sampled_from(FREE) | word, "subskills": some},
+        "fold": {},
         "freeze": {"skill": skill},
         "inline": {"skill": skill},
         "integrate": {"skill": skill, "with_": several, "reads": several},
@@ -99,6 +100,7 @@ def anything(draw: st.DrawFn) -> Asked:
         "rename": {"old": word, "new": word, "noun": st.sampled_from(NOUNS)},
         "replace": {"skill": skill, "new": skill},
         "split": {"to": st.sampled_from(["apart.mind", "parts.mind", "../x.mind", "x"]), "names": some},
+        "unfold": {},
         "unfreeze": {"skill": skill},
         "unshare": {"skill": st.just(LIKE) | skill},
     }  # fmt: skip
@@ -312,6 +314,16 @@ def test_a_file_that_is_not_saved_yet_is_there() -> None:
 @settings(max_examples=SELDOM, suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much])
 def test_an_edit_and_its_reverse_give_back_the_text(texts: Texts, data: st.DataObject) -> None:
     comes_back(texts, data)
+
+
+@given(minds())
+@settings(max_examples=SELDOM, suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much])
+def test_families_mean_what_they_mean_written_out(texts: Texts) -> None:
+    graph = texts.compiled().graph
+    unfolded = done_or_refused(texts, Asked("unfold", {}))
+    assume(isinstance(unfolded, Texts))
+    assert unfolded.compiled().graph == graph
+    assert done(unfolded, Asked("fold", {})).compiled().graph == graph
 
 
 @pytest.mark.slow

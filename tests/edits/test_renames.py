@@ -13,6 +13,7 @@ from mindrun.graph.graph import Graph
 from mindrun.graph.weights import genes, owners, reachable
 
 from mindlang.compiler.compile import load
+from mindlang.compiler.families import is_of_family, letter_in
 from mindlang.compiler.references import introductions
 from mindlang.editing.apply import apply_edit
 from mindlang.editing.edits import edit
@@ -61,8 +62,9 @@ def taught(graph: Graph) -> Lock:
 
 
 def names_of(project: Project) -> list[tuple[str, str]]:
-    """Everything that has a name, with its noun."""
-    return list(dict.fromkeys((mention.noun, mention.name.text) for mention in introductions(project.files)))
+    """Everything that has a name, with its noun; families by the name of their line."""
+    named = ((mention.noun, mention.name) for mention in introductions(project.files))
+    return list(dict.fromkeys((noun, name.span.text if is_of_family(name) else name.text) for noun, name in named))
 
 
 def changes(states: Mapping[str, Status]) -> dict[str, tuple[type, int]]:
@@ -106,11 +108,11 @@ def all_renames_hold(texts: Texts, older: Texts, rng: Random, most: int) -> Iter
     assert contents(kept) == contents(lock), "nothing is another where nothing is renamed"
     known = names_of(project)
     for noun, old in rng.sample(known, min(most, len(known))):
-        new = rng.choice(NEW[old[0].isupper()])
+        new = rng.choice(NEW[old[0].isupper()]) + letter_in(old)
         try:
             after, followed = holds(project, lock, noun, old, new)
         except EditError:
-            assert new not in ("fresh", "Fresh"), "what nothing is called can be a name"
+            assert new not in ("fresh", "Fresh", "freshN", "FreshN"), "what nothing is called can be a name"
             yield "refused"
             continue
         yield noun

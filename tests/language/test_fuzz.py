@@ -154,7 +154,8 @@ def test_line_by_line_is_the_same_language_as_the_whole_file(lines: list[str]) -
     text = "\n".join(lines)
     findings = Findings()
     parse(Source("fuzz.mind", text), findings)
-    assert read_whole(text) == (not findings.diagnostics)
+    unread = [each for each in findings.diagnostics if not each.code.startswith("family-")]  # which can be read
+    assert read_whole(text) == (not unread)
 
 
 @pytest.mark.parametrize("seed", range(cases(300)))

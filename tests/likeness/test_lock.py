@@ -84,8 +84,13 @@ def test_the_world_of_a_lesson_knows_what_is_alike() -> None:
     other = ALIKE.replace("reads far for near", "reads charge for near")
     told = changes(before, world(GO, other, TOP, SCHOOL, above))
     assert told == [
-        "Back has changed: reads far for near, sends right_wheel at far / 2, "
-        "now reads charge for near, sends right_wheel at charge / 2"
+        "Back has changed: reads far for near, sends left_wheel at far / 2, "
+        "now reads charge for near, sends left_wheel at charge / 2"
+    ]
+    other = "".join(line for line in ALIKE.splitlines(keepends=True) if "drives" not in line)
+    assert changes(world(GO, other, TOP, SCHOOL, above), before) == [
+        "Back has changed: sends right_wheel at far / 2, now sends left_wheel at far / 2, "
+        "sends to left_wheel for right_wheel, sends to right_wheel for left_wheel"
     ]
 
 

@@ -1,4 +1,4 @@
-"""Skills that are like others: the same function, the same weights, other inputs."""
+"""Skills that are like others: the same function, the same weights, other inputs and outputs."""
 
 import json
 
@@ -42,13 +42,15 @@ ALIKE = """
 skill Back is like Go
   reads far for near
   reads ears for eyes
+  drives right_wheel for left_wheel
+  drives left_wheel for right_wheel
 """
 WRITTEN_OUT = """
 skill Back is mlp
   reads ears
   reads far
-  drives left_wheel
-  drives right_wheel at far / 2
+  drives right_wheel
+  drives left_wheel at far / 2
 """
 SCHOOL = """
 task Roam in plain

@@ -35,6 +35,8 @@ skill Go is mlp hidden 1
 
 skill Home is like Go
   reads bin_bearing for ball_bearing
+  drives right_wheel for left_wheel
+  drives left_wheel for right_wheel
 
 skill Own is mlp hidden 1
   reads bin_bearing
@@ -137,6 +139,7 @@ def test_unshared_it_does_the_same_to_the_bit(taught: Path) -> None:
     lock = read_lock(taught.with_suffix(".lock"))
     assert lock["Home"].weights == lock["Go"].weights
     assert lock["Home"].signature.reads == ("bin_bearing",)
+    assert lock["Home"].signature.sends == lock["Go"].signature.sends[::-1]
     after = ready(taught)
     for readings in np.random.default_rng(1).random((50, before.graph.width), np.float32):
         assert before.tick(readings).tobytes() == after.tick(readings).tobytes()

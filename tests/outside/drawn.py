@@ -106,6 +106,9 @@ def environment_mind(rng: Random, module: str = "") -> str:
         )
     if "past" in readable:
         lines.append("memory past is cell decay 0.9")
+    if view := _view(rng, observed):
+        lines += view
+        readable += ["glance"]
     lines += _skills(rng, readable, [*actuators])
     return "\n".join([*lines, *_task(rng, module + world_name(number), [*sensors], [*actuators]), ""])
 
@@ -122,6 +125,19 @@ def _sensors(rng: Random, observed: Tree) -> dict[str, str]:
         words = _words(path, index if leaf.shape or not _numbered(path) or rng.random() < 0.5 else ())
         found[f"seen{number}"] = f"sensor seen{number} is observation {words} range {low} to {high}{more}"
     return found
+
+
+def _view(rng: Random, observed: Tree) -> list[str]:
+    """Several numbers as one sensor, and the last of them as another; none where no leaf has several."""
+    wide = [(path, len(leaf.places())) for path, leaf in leaves(observed) if len(leaf.places()) > 1]
+    if not wide or rng.random() < 0.5:
+        return []
+    path, count = rng.choice(wide)
+    first = rng.randrange(count - 1)
+    last = rng.randrange(first + 1, count)
+    more = rng.choice(["", "", " noise 3%", " lost 5% every 2 ticks", " delay 2 ticks"])
+    view = f"sensor view is observations {_words(path, (first,))} to {last} range -0.5 to {rng.choice([2, 255])}{more}"
+    return [view, f"sensor glance is reading {last - first + 1} of view"]
 
 
 def _numbered(path: tuple[Any, ...]) -> bool:

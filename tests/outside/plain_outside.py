@@ -24,25 +24,26 @@ class PlainOutside:
         self.world: Any = gymnasium.make(task.scene.environment, max_episode_steps=-1).unwrapped
         self.observed, _ = self.world.reset(seed=seed % (1 << 31))
         self.late = [deque([f(each.kind.neutral)] * each.kind.delay) for each in graph.actuators]
-        self.history: dict[str, list[float]] = {}
+        self.history: dict[int, list[float]] = {}
         self.counts = [0] * len(task.events)
         self.lines = [np.float64(0)] * len(task.rewards)
         self.ticks, self.ended, self.met, self.is_over = 0, GOING_ON, GOING_ON, False
 
-    def readings(self) -> dict[str, list[tuple[float, float]]]:
-        """Of each sensor that observes, the (least, most) that it may read: late, seldom, noisy, lost."""
+    def readings(self) -> dict[int, list[tuple[float, float]]]:
+        """Of each reading that is observed, by its number, the (least, most) that it may be: late, noisy, lost."""
         found = {}
         for sensor in self.graph.sensors:
             if (slot := sensor.kind.slot) is None:
                 continue
-            value = float(number_at(self.observed, slot))
-            share = min(1.0, max(0.0, (value - slot.range.first) / (slot.range.last - slot.range.first)))
-            past = self.history.setdefault(sensor.name, [])
-            past.append(share)
-            kind = sensor.kind
-            seen = past[max(0, self.ticks - kind.delay) // max(1, kind.every) * max(1, kind.every)]
-            spans = [(max(0.0, seen - kind.noise), min(1.0, seen + kind.noise))]
-            found[sensor.name] = [*spans, (0.0, 0.0)] if kind.lost else spans
+            for row, number in enumerate(numbers_at(self.observed, slot), sensor.start):
+                value = float(number)
+                share = min(1.0, max(0.0, (value - slot.range.first) / (slot.range.last - slot.range.first)))
+                past = self.history.setdefault(row, [])
+                past.append(share)
+                kind = sensor.kind
+                seen = past[max(0, self.ticks - kind.delay) // max(1, kind.every) * max(1, kind.every)]
+                spans = [(max(0.0, seen - kind.noise), min(1.0, seen + kind.noise))]
+                found[row] = [*spans, (0.0, 0.0)] if kind.lost else spans
         return found
 
     def step(self, readings: Any, failing: dict[str, int]) -> tuple[list[Any], list[int]]:
@@ -114,9 +115,11 @@ class PlainOutside:
         return values[()] if isinstance(space, gymnasium.spaces.Discrete) else values
 
 
-def number_at(observed: Any, slot: Any) -> Any:
-    """The number of an observation that a slot names."""
+def numbers_at(observed: Any, slot: Any) -> list[Any]:
+    """The number of an observation that a slot names, or its numbers."""
     keys = [*(slot.part.split(".") if slot.part else ()), *slot.index]
     while isinstance(observed, dict | tuple):
         observed = inside(observed, (keys.pop(0),))
-    return np.asarray(observed)[tuple(keys)] if np.ndim(observed) else np.asarray(observed)[()]
+    if slot.last is not None:
+        return [*np.asarray(observed).flatten()[keys[0] if keys else 0 : slot.last + 1]]
+    return [np.asarray(observed)[tuple(keys)] if np.ndim(observed) else np.asarray(observed)[()]]

@@ -24,6 +24,8 @@ LATE = "sensor late is observation late 0 range 0 to 1"
          "It has 2 numbers: 0 to 1."),
         (minds.text("sensor place is observation 0 0 range 0 to 1"), "place", "The environment has no observation 0 0.",
          "It has 2 numbers: 0 to 1."),
+        (minds.text("sensor place is observations 0 to 9 range 0 to 1"), "place",
+         "The environment has no observations 0 to 9.", "It has 2, which are counted through: 0 to 1."),
         (minds.text("sensor place is observation image 0 range 0 to 1"), "place",
          "The observation of the environment has no part called image.", "Write observation 0."),
         (minds.text("sensor place is observation 0 range 0 to 1", FOUR, PARTS), "place",

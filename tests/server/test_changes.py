@@ -220,6 +220,8 @@ def test_every_edit_is_proposed_somewhere_and_comes_to_what_compiles(tmp_path: P
     text = MIND.replace("  influences Grab at 1", "  influences Both at 1\n  influences Grab at 1")
     text += "\nskill Both is mlp hidden 1\n  reads eye\n  influences Go\n  influences Avoid\n\n"
     text += "skill Still is rule\n  drives claw at 0\n  stays frozen\n\nskill Twin is like Go\n"
+    text += "sensor beatN is clock period 2 s where N is 7 to 9\n"
+    text += "".join(f"sensor pulse{number} is clock period 2 s\n" for number in range(3))
     workspace, found = everywhere(path, text)
     assert {each.edit for each in found} == set(names()) - {"rename"}
     for each in found:

@@ -27,7 +27,7 @@ TOKENS = {
     "TEXT": "string.quoted.double",
     "ITS": FUNCTION,
     "ENVIRONMENT": "string.unquoted",
-    **dict.fromkeys(("COMPUTED", "NUMBERED", "ORDERED", "GYMNASIUM"), KIND),
+    **dict.fromkeys(("COMPUTED", "NUMBERED", "SEVERAL", "ORDERED", "GYMNASIUM"), KIND),
     **dict.fromkeys(("FROM", "TO", "BY", "FACING", "AT"), KEY),
     **dict.fromkeys(("EXTREME", "AND", "OR", "TICK", "LEVEL"), WORD),
     **dict.fromkeys(("SIGN", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
@@ -133,6 +133,11 @@ task T in Rocks
 task T is like walls.R
 scene R is arena size 60 40
 reads a for b.c
+drives a for b.c
+influences A for C+D
+sensor aN is bearing of xN where N is 1 to 10
+influences StepN at 1 when a < 2 where N is 1 to 10
+teaches GoN on B for few where N is 0 to 9
 influences A at 1 when ahead < 20% and b > 3 or c.d < 1 otherwise 0 cuts below 5%
 influences A when a < -b
 influences A cuts below limit

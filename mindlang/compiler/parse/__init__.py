@@ -2,13 +2,16 @@
 
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
 
 from mindrun.errors import nearest
+from msgspec import structs
 
 from mindlang.compiler import syntax
 from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.families import member, members
 from mindlang.compiler.parse.explain import explain, proper
 from mindlang.compiler.parse.shape import Start, parse_line
 from mindlang.compiler.source import Source, Span
@@ -25,27 +28,68 @@ _CODE = re.compile(r'(?:"[^"]*"|[^#])*')
 _HEADER = re.compile(r"\s*(\w+)\s+(\w[\w.+]*)")
 
 
+@dataclass(slots=True)
+class _Block:
+    """A header, perhaps that of a family, and the lines below it; None is a line that cannot be read."""
+
+    header: syntax.Header | None
+    family: syntax.Family | None
+    facts: list[syntax.Fact | None] = field(default_factory=list)
+
+    @property
+    def span(self) -> Span:
+        """The lines from the header to the last fact, of a block that has a header."""
+        assert self.header
+        start, text = self.header.span, self.header.span.source.text
+        last = max([start.end, *(fact.span.end for fact in self.facts if fact)])
+        end = (text.find("\n", last) + 1 or len(text) + 1) - 1
+        return replace(start, end=end - text.endswith("\r", 0, end))
+
+    def add(self, line: syntax.Fact | None, family: syntax.Family | None, findings: Findings) -> None:
+        """Add a fact, or those of a family."""
+        if line is None or family is None:
+            self.facts.append(line)
+        elif numbers := members(line, family, 1, findings):
+            self.facts += [member(line, family.letter.text, number) for number in numbers]
+        else:
+            self.facts.append(None)
+
+    def declarations(self, findings: Findings) -> Iterator[syntax.Declaration]:
+        """The declaration, or those of a family; none where the header cannot be read."""
+        if self.header is None:
+            return
+        declaration = syntax.Declaration(self.header, tuple(filter(None, self.facts)), None not in self.facts)
+        if self.family is None:
+            yield declaration
+        elif numbers := members(self.header.name, self.family, 1 + len(self.facts), findings):
+            yield from (member(declaration, self.family.letter.text, number) for number in numbers)
+        else:
+            yield structs.replace(declaration, facts=(), whole=False)
+
+
 def parse(source: Source, findings: Findings) -> syntax.File:
     """The file as far as its lines can be read; the others are reported."""
     settings: list[syntax.Setting] = []
-    blocks: list[tuple[syntax.Header | None, list[syntax.Fact | None]]] = []  # None is a line that cannot be read
+    blocks: list[_Block] = []
+    families: list[Span] = []
     is_below_header = False
-    for line in _lines(source, findings):
+    for read in _lines(source, findings):
+        line, family = (read.line, read.family) if isinstance(read, syntax.Repeated) else (read, None)
         if isinstance(line, syntax.Setting):
             settings.append(line)
             is_below_header = False
         elif isinstance(line, syntax.Header) or not (line or is_below_header):  # what cannot be read may be a header
-            blocks.append((line, []))
+            blocks.append(_Block(line if isinstance(line, syntax.Header) else None, family))
             is_below_header = True
         elif is_below_header:
-            blocks[-1][1].append(line)
+            blocks[-1].add(line, family, findings)
+            families += [read.span] if read and family else []
         else:
             hint = "A fact stands below the skill, task or curriculum to which it belongs."
             findings.error("homeless-fact", line.span, "This fact belongs to no declaration.", hint)
-    declarations = (
-        syntax.Declaration(header, tuple(filter(None, facts)), None not in facts) for header, facts in blocks if header
-    )
-    return syntax.File(source, tuple(settings), tuple(declarations))
+    families += [each.span for each in blocks if each.family]
+    declarations = (declaration for block in blocks for declaration in block.declarations(findings))
+    return syntax.File(source, tuple(settings), tuple(declarations), tuple(families))
 
 
 def parse_stops(source: Source, findings: Findings) -> list[syntax.Stop]:

@@ -1,7 +1,7 @@
 """Lark's tree of one line → the structs of `syntax`."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, cast
 
 from lark import Token, Tree, v_args
@@ -21,17 +21,15 @@ _FORMS: Mapping[str, type[Struct]] = {
     "reads": syntax.Reads, "gate": syntax.Gate, "chooses": syntax.Chooses, "stays": syntax.Stays,
     "contains": syntax.Contains, "varies": syntax.Varies, "fails": syntax.Fails, "lasts": syntax.Lasts,
     "counts": syntax.Counts, "transmission": syntax.Transmits, "needs": syntax.Needs, "until": syntax.Needs,
-    "each": syntax.Each,
-    "when": syntax.When, "comparison": syntax.Comparison, "argument": Argument, "setting": Argument, "origin": Argument,
+    "each": syntax.Each, "when": syntax.When, "comparison": syntax.Comparison, "argument": Argument,
+    "setting": Argument, "origin": Argument, "family": syntax.Family,
 }  # fmt: skip
+_SENT = {"name": Name, "at": Expression, "gate": syntax.Gate, "stands_for": Name}
 _OUTCOME = {"times": Amount, "event": Phrase, "when": syntax.When}
-# Rules any of whose parts may be missing: which field a part is, its type says.
+# Rules any of whose parts may be missing: which field a part is, its type says, and of two of one type their order.
 _FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, type]]] = {
-    "drives": (syntax.Drives, {"name": Name, "at": Expression, "gate": syntax.Gate}),
-    "influences": (
-        syntax.Influences,
-        {"name": Name, "over": tuple, "at": Expression, "gate": syntax.Gate, "cuts": Amount},
-    ),
+    "drives": (syntax.Drives, _SENT),
+    "influences": (syntax.Influences, {**_SENT, "over": tuple, "cuts": Amount}),
     "starts": (syntax.Starts, {"place": tuple, "facing": Amount}),
     "ends": (syntax.Ends, _OUTCOME),
     "succeeds": (syntax.Succeeds, _OUTCOME),
@@ -61,7 +59,8 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         """A rule of the tables."""
         if data in _FIELDS:
             form, fields = _FIELDS[data]
-            found = {field: next(iter(syntax.of_form(children, of)), None) for field, of in fields.items()}
+            parts: dict[type, Iterator[Any]] = {of: iter(syntax.of_form(children, of)) for of in fields.values()}
+            found = {field: next(parts[of], None) for field, of in fields.items()}
             return form(**found, span=self._span(meta))
         form = _FORMS[data]
         missing = len(form.__struct_fields__) - 1 - len(children)
@@ -74,7 +73,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         """A word."""
         return Name(str(token), self._span(token))
 
-    TITLE = PART = WHOLE = TASK = COMPUTED = NUMBERED = ORDERED = GYMNASIUM = ENVIRONMENT = NAME
+    TITLE = PART = WHOLE = TASK = COMPUTED = NUMBERED = SEVERAL = ORDERED = GYMNASIUM = ENVIRONMENT = NAME
     FROM = TO = BY = FACING = AT = NAME
 
     def COMPARE(self, token: Token) -> str:  # noqa: N802
@@ -84,9 +83,13 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     LEVEL = COMPARE
 
     def line(self, meta: Any, parts: list[Any]) -> Any:
+        line, *families = parts
+        return syntax.Repeated(line, families[0], self._span(meta)) if families else line
+
+    def name(self, meta: Any, parts: list[Any]) -> Any:
         return parts[-1]
 
-    name = under = word = cuts = facing = line
+    under = word = cuts = facing = name
 
     def use(self, meta: Any, parts: list[Any]) -> syntax.Use:
         path, alias = (*parts, None)[:2]
@@ -122,6 +125,11 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         kind, ends, *rest = parts
         first = Argument(kind, ends, Span(self.source, kind.span.start, ends.span.end))
         return Phrase(kind, (first, *rest), self._span(meta))
+
+    def last(self, meta: Any, parts: list[Any]) -> Argument:
+        span = self._span(meta)
+        key = Name("to", Span(span.source, span.start, span.start + 2))
+        return Argument(key, Numbers((parts[0],), parts[0].span), span)
 
     def outside(self, meta: Any, parts: list[Any]) -> Phrase:
         """The environment goes as an argument that is called as its kind."""

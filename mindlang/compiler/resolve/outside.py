@@ -16,6 +16,7 @@ from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Counts, Phrase, Starts, expressions_in, of_form
 
 ENVIRONMENT = "a gymnasium environment"
+OUTSIDE = {"task": ("gymnasium",), "sensor": ("observation", "observations"), "actuator": ("action", "choice")}  # kinds
 
 Refused = tuple[Span, str, str]  # where, why, and what to do
 
@@ -24,7 +25,7 @@ def is_outside(names: Names) -> bool:
     """True if any task is in an environment, or a sensor or actuator belongs to one."""
     return any(
         (phrase := declaration.header.phrase) is not None and phrase.kind.text in kinds
-        for noun, kinds in (("task", {"gymnasium"}), ("sensor", {"observation"}), ("actuator", {"action", "choice"}))
+        for noun, kinds in OUTSIDE.items()
         for _, declaration in names.declarations(noun)
     )
 

@@ -21,6 +21,7 @@ from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.syntax import Declaration, Fact, Header, Name, verb_of
 
 MOST_READINGS = 20_000
+ONE_OF_TWO = "Leave one of the two lines out."
 ONE_LINE = "All that there is to say of it stands in its one line; set the fact below the skill or task it belongs to."
 
 Parts = tuple[Part[Any], ...]

@@ -1,6 +1,7 @@
 """Amounts as written → numbers: units converted, ranges and whole numbers checked."""
 
 from collections.abc import Callable, Mapping
+from fractions import Fraction
 from math import ceil, floor, isfinite
 from typing import Any
 
@@ -9,6 +10,8 @@ from mindrun.numbers.quantity import LEAST_STEP, Extent, Place, Quantity, Span
 
 from mindlang.compiler.diagnostic import Findings, Label, listed
 from mindlang.compiler.syntax import Amount, Either, Name, Numbers, Points, Range, Value
+
+MOST_NUMBERS = 20_000  # of a list that is said by its step
 
 
 def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = "") -> float | int | None:
@@ -112,12 +115,52 @@ def value_list(value: Value, quantity: Quantity, findings: Findings) -> tuple[fl
                 return None
             numbers = [convert(amount, quantity, findings, last.unit) for amount in most]
             return (*(n for n in numbers if n is not None), end) if None not in numbers else None
-        case Range():
-            hint = "Write each number, with spaces between."
-            findings.error("no-range", value.span, "A list cannot be a range.", hint)
+        case Range(first, last, None):
+            bare, unit = last.span.text.removesuffix(last.unit).rstrip(), f" {last.unit}".replace(" %", "%").rstrip()
+            example = f"{first.span.text} to {bare} by {abs(last.number - first.number) / 4:g}{unit}"
+            hint = f"Write each number, with spaces between, or the step from one to the next: {example}."
+            findings.error("no-range", value.span, "A list cannot be a range without a step.", hint)
+        case Range(first, last, Amount() as by):
+            return _stepped(value, first, last, by, quantity, findings)
         case _:
             single_value(value, quantity, findings)
     return None
+
+
+def _stepped(
+    value: Range, first: Amount, last: Amount, by: Amount, quantity: Quantity, findings: Findings
+) -> tuple[float | int, ...] | None:
+    """The numbers of `-60 to 60 by 4 deg`, the ends among them, each as if it were written: 0.3 and not 3 * 0.1."""
+    unit = by.unit or last.unit
+    if convert(last, quantity, findings, unit) is None or convert(first, quantity, findings, unit) is None:
+        return None  # one message will do
+    if convert(by, _step(quantity), findings, unit) is None:
+        return None
+    if {unit} != {amount.unit or unit for amount in (first, last, by)}:
+        hint = "Write the unit once, at the end: -60 to 60 by 4 deg."
+        findings.error("wrong-unit", value.span, "The ends and the step have several units.", hint)
+        return None
+    begin, end, step = (Fraction(str(amount.number)) for amount in (first, last, by))
+    steps, whole = abs(end - begin) / step, round(abs(end - begin) / step)
+    if whole >= MOST_NUMBERS:
+        message, hint = f"That makes {whole + 1} numbers.", f"A list has at most {MOST_NUMBERS}: write a larger step."
+        findings.error("too-many-readings", value.span, message, hint)
+        return None
+    if abs(steps - whole) > LEAST_STEP:
+        nearest = float(begin + int(steps) * (step if begin < end else -step))
+        message = f"Steps of {by.span.text} do not lead from {first.span.text} to {last.span.text}."
+        hint = f"They lead to {nearest:g}: write that as the end, or another step."
+        findings.error("uneven-steps", value.span, message, hint)
+        return None
+    numbers = (float(begin + (end - begin) * place / max(whole, 1)) for place in range(whole + 1))
+    found = [convert(Amount(number, unit, by.span), quantity, findings) for number in numbers]
+    return tuple(number for number in found if number is not None) if None not in found else None
+
+
+def _step(quantity: Quantity) -> Quantity:
+    """The quantity of a step from one number to the next."""
+    name = f"the step from one number to the next, {quantity.name}"
+    return Quantity(name, quantity.units, low=LEAST_STEP, high=quantity.high)
 
 
 def extent(value: Value, quantity: Quantity, findings: Findings) -> Extent | None:
@@ -167,8 +210,7 @@ def span(value: Value, quantity: Quantity, findings: Findings) -> Span | None:
         return None if number is None else Span(number, number)
     unit = value.last.unit
     first, last = (convert(amount, quantity, findings, unit) for amount in (value.first, value.last))
-    step = Quantity(f"the step of a schedule, {quantity.name}", quantity.units, low=LEAST_STEP, high=quantity.high)
-    by = convert(value.by, step, findings, unit) if value.by else None
+    by = convert(value.by, _step(quantity), findings, unit) if value.by else None
     if first is None or last is None or (value.by and by is None):
         return None
     if by is None and first > last:

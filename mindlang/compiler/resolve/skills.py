@@ -1,4 +1,4 @@
-"""Skills: what they read, what they drive and influence, that their function fits, and those that are like others."""
+"""Skills: what they read, what they drive and influence, and that their function fits."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -6,32 +6,20 @@ from typing import Any
 from mindrun.graph.graph import Receiver
 from mindrun.kinds.functions.function import Function
 from mindrun.numbers.quantity import RATIO
-from msgspec.structs import replace
 from networkx import DiGraph
 
 from mindlang.compiler import model, syntax
-from mindlang.compiler.diagnostic import Findings, listed
+from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
 from mindlang.compiler.names import Names
 from mindlang.compiler.references import DRIVABLE_NOUNS
 from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
-from mindlang.compiler.resolve.parts import refuse_facts, said_once
+from mindlang.compiler.resolve.likeness import alike, unsaid
+from mindlang.compiler.resolve.parts import ONE_OF_TWO, refuse_facts, said_once
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.syntax import (
-    Chooses,
-    Declaration,
-    Drives,
-    Influences,
-    Reads,
-    Sends,
-    Stays,
-    Term,
-    of_form,
-    rebuilt,
-)  # fmt: skip
+from mindlang.compiler.syntax import Chooses, Declaration, Drives, Influences, Reads, Sends, Stays, of_form
 
-ONE = "Leave one of the two lines out."
 STATES: Mapping[type[Stays] | type[Chooses], tuple[str, str]] = {Stays: ("stay", "frozen"), Chooses: ("choose", "one")}
 
 
@@ -54,13 +42,8 @@ def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple
     says = "Skills are like one another in a circle"
     refuse_circles("like-circle", graph, findings, says, hint, "and from there on")
     for name in (each for each in reverse_topological_order(graph) if each in like):
-        known[name] = _alike(declared[name], known.get(like[name]), names, widths, findings)
-    return tuple(known.get(name) or _unsaid(each) for name, each in declared.items())
-
-
-def _unsaid(declaration: Declaration) -> model.Skill:
-    function: Any = None
-    return model.Skill(declaration.header.name.text, function, (), (), False, declaration)
+        known[name] = alike(declared[name], known.get(like[name]), names, widths, findings)
+    return tuple(known.get(name) or unsaid(each) for name, each in declared.items())
 
 
 def _skill(
@@ -85,12 +68,18 @@ def _skill(
 def _reads(declaration: Declaration, names: Names, findings: Findings) -> tuple[str, ...]:
     known = []
     for fact in of_form(declaration.facts, Reads):
-        if fact.stands_for:
-            message = f"{declaration.header.name.text} is like no other skill, so nothing stands for an input of it."
-            findings.error("for-without-like", fact.stands_for.span, message, f"Write reads {fact.name.text}.")
+        _refuse_for(declaration, fact, findings)
         if names.find(fact.name, ("sensor", "memory"), findings):
             known.append(fact)
-    return tuple(fact.name.text for fact in said_once(known, _repeated, findings, ONE))
+    return tuple(fact.name.text for fact in said_once(known, _repeated, findings, ONE_OF_TWO))
+
+
+def _refuse_for(declaration: Declaration, fact: Reads | Sends, findings: Findings) -> None:
+    """Report a `for` in a skill that is like no other."""
+    if fact.stands_for:
+        message = f"{declaration.header.name.text} is like no other skill, so nothing stands for something else in it."
+        hint = f"Write {syntax.verb_of(fact)} {fact.name.text}."
+        findings.error("for-without-like", fact.stands_for.span, message, hint)
 
 
 def _repeated(fact: Reads | Drives | Influences) -> str:
@@ -103,6 +92,7 @@ def _edges(declaration: Declaration, names: Names, visible: Visible, findings: F
     over: tuple[str, ...]
     for fact in (fact for fact in declaration.facts if isinstance(fact, Drives | Influences)):
         cuts, over = None, ()
+        _refuse_for(declaration, fact, findings)
         if isinstance(fact, Drives):
             to = names.find(fact.name, DRIVABLE_NOUNS, findings)
         else:
@@ -113,7 +103,7 @@ def _edges(declaration: Declaration, names: Names, visible: Visible, findings: F
         gate = resolve_expressions(fact.gate, visible, findings)
         if to:
             edges.append(model.Edge(to, fact.name.text, at, fact, gate, cuts or 0.0, over))
-    first = set(said_once((edge.fact for edge in edges), _repeated, findings, ONE))
+    first = set(said_once((edge.fact for edge in edges), _repeated, findings, ONE_OF_TWO))
     return tuple(edge for edge in edges if edge.fact in first)
 
 
@@ -137,7 +127,7 @@ def _is_so(declaration: Declaration, form: type[Stays] | type[Chooses], findings
         findings.error(
             "nothing-to-choose", fact.span, f"{declaration.header.name.text} has no influence to choose.", hint
         )
-    return bool(said_once(right, lambda _: f"The skill already {verb}s {word}.", findings, ONE)) and not is_idle
+    return bool(said_once(right, lambda _: f"The skill already {verb}s {word}.", findings, ONE_OF_TWO)) and not is_idle
 
 
 def _check_works(declaration: Declaration, function: Function, edges: Sequence[model.Edge], findings: Findings) -> None:
@@ -158,66 +148,3 @@ def _check_works(declaration: Declaration, function: Function, edges: Sequence[m
     if function.learns and not of_form(declaration.facts, Reads):
         hint = "Add reads and a sensor, or make it a rule with at on every line."
         findings.error("no-inputs", name.span, f"{name.text} reads nothing, so it has nothing to learn from.", hint)
-
-
-def _alike(
-    own: Declaration, other: model.Skill | None, names: Names, widths: Mapping[str, int], findings: Findings
-) -> model.Skill:
-    """A skill that is like another, None where there is no such one: the same function, which reads something else."""
-    name, like = own.header.name.text, own.header.like
-    if other is None and like:
-        names.find(like, ("skill",), findings)
-    if other is None or not other.function or not like:
-        return _unsaid(own)
-    if not other.function.learns:
-        message = f"{other.name} learns nothing, so it has no weights that {name} could share."
-        hint = f"Say what {name} is, and repeat the lines of {other.name}."
-        findings.error("like-no-learner", like.span, message, hint)
-        return _unsaid(own)
-    for more in (fact for fact in own.facts if not isinstance(fact, Reads)):
-        message = f"{name} is like {other.name}, so it only says what it reads in place of that."
-        hint = f"Take this line out, or say it of {other.name}: it holds for both."
-        findings.error("like-says-more", more.span, message, hint)
-    lines = of_form(own.facts, Reads)
-    known = [fact for fact in lines if names.find(fact.name, ("sensor", "memory"), findings)]
-    replaced = ((fact, _replaced(fact, other, names, widths, findings)) for fact in known)
-    instead = {fact: input_ for fact, input_ in replaced if input_}
-    said_once(instead, lambda fact: f"Something stands for {instead[fact]} already.", findings, ONE)
-    read = {input_: fact.name.text for fact, input_ in instead.items()}
-    reads = tuple(read.get(each, each) for each in other.reads)
-    if twice := next((fact for fact in lines if reads.count(fact.name.text) > 1), None):
-        message = f"{name} would read {twice.name.text} twice."
-        findings.error("repeated-input", twice.span, message, "Let it read something else here.")
-
-    def reading(node: Any) -> Any:
-        is_read = isinstance(node, Term) and node.word == "reading"
-        return replace(node, operand=read.get(node.operand, node.operand)) if is_read else node
-
-    edges = tuple(replace(edge, at=rebuilt(edge.at, reading), gate=rebuilt(edge.gate, reading)) for edge in other.edges)
-    return model.Skill(name, other.function, reads, edges, False, own, other.owner, other.chooses)
-
-
-def _replaced(fact: Reads, other: model.Skill, names: Names, widths: Mapping[str, int], findings: Findings) -> str:
-    """The input of the other skill that a line replaces, with as many readings; empty after reporting an error."""
-    name = fact.name.text
-    reads = f"{other.name} reads {listed(other.reads, 'and') if other.reads else 'nothing'}."
-    if fact.stands_for is None:
-        message = f"It is not said for which input of {other.name} {name} stands."
-        findings.error("stands-for-nothing", fact.span, message, f"Write reads {name} for INPUT: {reads}")
-        return ""
-    replaced = fact.stands_for.text
-    if replaced not in other.reads:
-        if replaced not in names.unread and other.declaration.whole:
-            message = f"{other.name} does not read {replaced}."
-            findings.error("no-such-input", fact.stands_for.span, message, reads)
-        return ""
-    own, width = widths.get(name, 1), widths.get(replaced, 1)
-    if own != width:
-        message = f"{name} has {_readings(own)}, {replaced} has {_readings(width)}."
-        hint = f"The weights of {other.name} fit a sensor with {_readings(width)} in its place."
-        findings.error("other-width", fact.name.span, message, hint)
-    return replaced if own == width else ""
-
-
-def _readings(width: int) -> str:
-    return "one reading" if width == 1 else f"{width} readings"

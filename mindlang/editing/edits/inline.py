@@ -34,7 +34,7 @@ def inline(project: Project, skill: str) -> MindChange:
     if not of_form(declaration.facts, Influences):
         message = f"{skill} is a base skill: there is nothing below it to take its place."
         raise EditError(message, "", declaration.header.span)
-    parents = project.parents(skill)
+    parents = [parent for parent in project.parents(skill) if not parent.header.like]
     project.refuse_used("skill", skill, [declaration, *parents])
     if not parents:
         message = f"No skill influences {skill}: nothing can take its place."

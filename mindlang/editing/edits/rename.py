@@ -1,5 +1,6 @@
 """`mindc edit rename`."""
 
+import re
 from pathlib import Path
 from typing import Annotated
 
@@ -7,7 +8,10 @@ from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Label, a, listed
+from mindlang.compiler.families import is_of_family, letter_in, numbered
 from mindlang.compiler.references import VALUE_NOUNS, Mention, introductions
+from mindlang.compiler.source import Span
+from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import NOUNS, Rewards, of_form
 from mindlang.editing.insertion import replace_span
 from mindlang.editing.project import (
@@ -30,6 +34,8 @@ def rename(
 ) -> MindChange:
     """Rename anything, wherever it is named and in the locks.
 
+    A family is renamed by the name in its line, GoN to SeekN.
+
     Other minds that use the same files follow, those beside them and in the folders above.
 
     Example: mindc edit rename collect.mind Avoid Dodge --noun skill
@@ -38,22 +44,51 @@ def rename(
     of = declared.noun
     _refuse_under_alias(declared, new, noun)
     refuse_misnamed(of, new)
-    for each in (project, *project.sharing(of, old)):
-        _refuse_taken(each, of, new)
-    places = (mention.name.span for mention in project.everywhere(of, old))
-    path = declared.name.span.source.path
-    used = ((other.paths[path].source.alias, other) for other in project.neighbours if path in other.paths)
-    is_local = of in ("thing", "draw")
-    aliases = {alias: other for alias, other in used if alias and not is_local}  # the others' names for its file
-    others = (
-        replace_span(mention.name.span, f"{alias}.{new}")
-        for alias, other in aliases.items()
-        for mention in other.mentions(of, f"{alias}.{old}")
-        if not mention.name.span.source.alias
-    )
-    splices = (*(replace_span(place, new) for place in places), *others)
-    elsewhere = (Renamed(of, f"{alias}.{old}", f"{alias}.{new}") for alias in aliases)
-    return MindChange(splices, (Renamed(of, old, new), *elsewhere))
+    splices, renamed = dict[Span, Splice](), list[Renamed]()
+    for name, now in _called(project, declared, old, new).items():
+        for each in (project, *project.sharing(of, name)):
+            _refuse_taken(each, of, now)
+        path = declared.name.span.source.path
+        used = ((other.paths[path].source.alias, other) for other in project.neighbours if path in other.paths)
+        is_local = of in ("thing", "draw")
+        aliases = {alias: other for alias, other in used if alias and not is_local}  # the others' names for its file
+        mentions = [("", mention) for mention in project.everywhere(of, name)]
+        mentions += [
+            (f"{alias}.", mention)
+            for alias, other in aliases.items()
+            for mention in other.mentions(of, f"{alias}.{name}")
+            if not mention.name.span.source.alias
+        ]
+        for prefix, mention in mentions:
+            splices[mention.name.span] = replace_span(mention.name.span, prefix + _written(mention, old, new, now))
+        renamed += [Renamed(of, prefix + name, prefix + now) for prefix in ("", *(f"{alias}." for alias in aliases))]
+    return MindChange(tuple(splices.values()), tuple(renamed), of_families=True)
+
+
+def _called(project: Project, declared: Mention, old: str, new: str) -> dict[str, str]:
+    """The new name of each name: of all members of a family, or of the one that is declared."""
+    if not is_of_family(declared.name):
+        return {old: new}
+    letter, line = letter_in(old), declared.name.span
+    if letter == "" or line.text != old:
+        hint = f"Rename the family, {line.text}, or write it out first: {project.main.source.edit('unfold')}"
+        raise EditError(f"{old} is one of a family.", hint, line)
+    if letter_in(new) != letter:
+        raise EditError(f"The name of this family ends in {letter}.", f"Write for example {new}{letter}.", line)
+    families = [m.name for m in introductions(project.files) if m.noun == declared.noun and m.name.span.text == old]
+    parts = re.compile(numbered(re.escape(old), letter, r"(\\d+)"))
+    found = {name.text: parts.fullmatch(name.text) for name in families if is_of_family(name)}
+    return {name: numbered(new, letter, its[1]) for name, its in found.items() if its}
+
+
+def _written(mention: Mention, old: str, new: str, now: str) -> str:
+    """What stands for a new name in a place; in the line of a family, perhaps with another letter."""
+    if not is_of_family(mention.name):
+        return now
+    if now == new:
+        hint = f"Write that line out first: {mention.name.span.source.edit('unfold')}"
+        raise EditError(f"{old} stands in a line of a family.", hint, mention.name.span)
+    return numbered(new, letter_in(old), letter_in(mention.name.span.text))
 
 
 def _refuse_under_alias(declared: Mention, new: str, noun: str) -> None:
@@ -78,7 +113,7 @@ def _declared(project: Project, name: str, noun: str) -> Mention:
     if noun:
         refuse_no_noun(noun, (*NOUNS, "thing", "draw", "number"))
     known = [mention for mention in introductions(project.files) if noun in ("", mention.noun)]
-    found = {mention.noun: mention for mention in known if mention.name.text == name}
+    found = {mention.noun: mention for mention in known if name in (mention.name.text, _of_line(mention))}
     if not found:
         hint = suggestion(name, list(dict.fromkeys(mention.name.text for mention in known)))
         raise EditError(f"There is no {noun} called {name}." if noun else f"Nothing is called {name}.", hint)
@@ -88,6 +123,11 @@ def _declared(project: Project, name: str, noun: str) -> Mention:
         message = f"{name} is {listed(map(a, found), 'and')}."
         raise EditError(message, f"Say which: --noun {first.noun}", first.name.span, *labels)
     return first
+
+
+def _of_line(mention: Mention) -> str:
+    """The name that stands in the line of a family; empty for all others."""
+    return mention.name.span.text if is_of_family(mention.name) else ""
 
 
 def _refuse_taken(project: Project, noun: str, name: str) -> None:

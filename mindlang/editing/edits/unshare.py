@@ -1,11 +1,11 @@
 """`mindc edit unshare`."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from mindlang.compiler.model import Skill
 from mindlang.compiler.references import mentions_in
 from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import Fact, Reads
+from mindlang.compiler.syntax import Fact, Sends
 from mindlang.editing.insertion import first_line, indentation, insert_below, replace_line, replace_span, without_fact
 from mindlang.editing.project import EditError, MindChange, Project, Unshared
 
@@ -25,11 +25,12 @@ def unshare(project: Project, skill: str) -> MindChange:
     owner = skills[own.like]
     phrase = owner.declaration.header.phrase
     assert phrase
-    instead_of = dict(zip(owner.reads, own.reads, strict=True))
-    indent = indentation(declaration)
-    lines = [f"{indent}{_restated(project, owner, fact, instead_of)}" for fact in owner.declaration.facts]
+    targets = ([edge.target for edge in each.edges] for each in (owner, own))
+    sends, reads = dict(zip(*targets, strict=True)), dict(zip(owner.reads, own.reads, strict=True))
+    indent, unshared = indentation(declaration), Unshared(skill, own.like, reads, sends)
+    lines = [f"{indent}{_restated(project, owner, fact, unshared)}" for fact in owner.declaration.facts]
     header = replace_span(declaration.header.span, f"skill {skill} is {phrase.span.text}")
-    return MindChange((header, *_below(own, lines)), unshared=Unshared(skill, own.like, instead_of))
+    return MindChange((header, *_below(own, lines)), unshared=unshared)
 
 
 def _below(skill: Skill, lines: list[str]) -> Iterator[Splice]:
@@ -43,13 +44,13 @@ def _below(skill: Skill, lines: list[str]) -> Iterator[Splice]:
     yield from map(without_fact, others)
 
 
-def _restated(project: Project, owner: Skill, fact: Fact, instead_of: Mapping[str, str]) -> str:
-    """A fact of the owner with what is read instead."""
+def _restated(project: Project, owner: Skill, fact: Fact, unshared: Unshared) -> str:
+    """A fact of the owner with what is read and to what is sent instead."""
     text, start = fact.span.text, fact.span.start
-    names = [mention.name for mention in mentions_in(fact, project.names, owner.declaration)]
-    by_place = {name.span.start: name for name in names if isinstance(fact, Reads) or name.text in instead_of}
-    for place in sorted(by_place, reverse=True):
-        name = by_place[place]
-        first, last = name.span.start - start, name.span.end - start
-        text = text[:first] + instead_of.get(name.text, name.text) + text[last:]
+    names = {mention.name.span.start: mention.name for mention in mentions_in(fact, project.names, owner.declaration)}
+    for place in sorted(names, reverse=True):
+        name = names[place]
+        is_target = isinstance(fact, Sends) and name.span == fact.name.span
+        own = (unshared.sends if is_target else unshared.reads).get(name.text, name.text)
+        text = text[: place - start] + own + text[name.span.end - start :]
     return text

@@ -128,9 +128,8 @@ def _likeness_flaws(graph: Graph) -> Iterator[str]:
 
 
 def _shape(skill: Skill) -> object:
-    """Function and number of inputs, which weights have to fit, and where the outputs go."""
-    sent = [(edge.to, edge.target, edge.output, edge.over) for edge in skill.edges]
-    return skill.function, skill.chooses, len(skill.inputs), sent
+    """Function, number of inputs, and outputs, which weights have to fit; over what it sends, and that it chooses."""
+    return skill.function, skill.chooses, len(skill.inputs), [(edge.output, edge.over) for edge in skill.edges]
 
 
 def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:

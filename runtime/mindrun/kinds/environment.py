@@ -11,15 +11,18 @@ class Slot:
     """The number with that `index` in a `part` of an observation or an action, which has no name where it is the whole.
 
     It is within `range`, None where the environment says that. An action that is one of several is the choice `chosen`.
+    With `last` it is several numbers, from the one at `index` up to that, of the part flattened in C order.
     """
 
     part: str
     index: tuple[int, ...]
     range: Span | None = None
     chosen: int | None = None
+    last: int | None = None
 
     def __str__(self) -> str:
-        return " ".join([self.part, *map(str, self.index)]).strip()
+        to = [] if self.last is None else ["to", f"{self.last}"]
+        return " ".join([self.part, *map(str, self.index), *to]).strip()
 
     @property
     def has_two_ends(self) -> bool:

@@ -1,11 +1,11 @@
-"""One number of an environment's observation."""
+"""One number of an environment's observation, and several."""
 
 from collections.abc import Collection, Mapping
 from typing import Annotated, Any
 
 from mindrun.kinds.environment import Slot
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Flaw, Physical
+from mindrun.kinds.sensors.sensor import Flaw, Physical, Shape
 from mindrun.numbers.quantity import INDEX, NUMBER, SLOT, Span
 
 
@@ -38,3 +38,40 @@ class Observation(Physical):
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         """Do nothing: whoever stepped the environment has written the reading."""
+
+
+@kind("sensor", "observations")
+class Observations(Physical):
+    """Several numbers of a Gymnasium environment's observation, as one wide reading: all from the first up to `to`.
+
+    Those of an array with several axes are counted through, its last axis fastest. The first number is 0; of a `Dict`,
+    the name of the part goes before it, of a `Tuple` its number. All have one `range`.
+    """
+
+    observations: Annotated[tuple[int, ...], INDEX]
+    to: Annotated[int, INDEX]
+    range: Annotated[Span, NUMBER]
+    part: Annotated[str, SLOT] = ""
+
+    scaled = True
+
+    @property
+    def slot(self) -> Slot:
+        """The numbers of the observation that the arguments name, and their range."""
+        return Slot(self.part, self.observations, self.range, last=self.to)
+
+    @property
+    def shape(self) -> Shape:
+        """One reading for each number."""
+        return (max(1, self.to - self.observations[-1] + 1),)
+
+    def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
+        """A flaw where it ends before it begins, or its range has not two ends."""
+        if self.to < self.observations[-1]:
+            hint = "Write the first number, then the last: observations 0 to 9."
+            return Flaw("range-backwards", "to", "This range ends below its beginning.", hint)
+        return Observation.flaw(self, widths)  # type: ignore[arg-type]  # which asks for no more than the slot
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """Do nothing: whoever stepped the environment has written the readings."""

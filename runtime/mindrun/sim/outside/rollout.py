@@ -120,8 +120,10 @@ class EnvironmentRollout(Rollout):
 
     def _shares(self, names: Sequence[str], counts: NDArray[np.int64]) -> str:
         """In words, the share of ticks in which something was true of each name; "" where it never was."""
-        shares = zip(names, (counts / max(1, self.observed)).tolist(), strict=True)
-        said = [f"{name} in {_percent(share)}" for name, share in shares if share]
+        shares: dict[str, float] = {}  # of a sensor with several readings that of the worst
+        for name, share in zip(names, (counts / max(1, self.observed)).tolist(), strict=True):
+            shares[name] = max(share, shares.get(name, 0.0))
+        said = [f"{name} in {_percent(share)}" for name, share in shares.items() if share]
         return f"{', '.join(said)} of the ticks" if said else ""
 
     @property

@@ -46,6 +46,10 @@ def _of_place(name: str, noun: str, slot: Slot, parts: Mapping[str, SpacePart]) 
         hint = f"Its parts are {', '.join(known)}: write {noun} {first}." if known else f"Write {noun} 0."
         hint = hint if parts else WRAP
         yield Misfit("unknown-slot", name, f"The {noun} of the environment {said}.", hint)
+    elif slot.last is not None:
+        if not (len(index) == 1 and index[0] <= slot.last < len(part.low)):
+            hint = f"It has {len(part.low)}, which are counted through: 0 to {len(part.low) - 1}."
+            yield Misfit("unknown-slot", name, f"The environment has no {noun}s {slot}.", hint)
     elif part.place(index) is None:
         several = "s" * (part.axes != (1,))
         hint = f"It has {' times '.join(map(str, part.axes))} number{several}: {part.indices()}."
@@ -110,10 +114,10 @@ def _written(name: str, index: tuple[int, ...]) -> str:
 class EnvironmentWiring:
     """The numbers that a mind reads of an environment, and the actions that its commands are there.
 
-    Its sensors, in order: their `rows` among the readings, their `names`, the ends of their ranges, and the `places` of
-    their numbers in an observation. An action is as many numbers as its parts have, one part after the other: of the
-    commands `driven` least + command · (most − least) at the places `to`, and at others a choice: there it is the k-th
-    of some numbers, where of the actuators in some rows the k-th has the largest command.
+    Of each number that its sensors read, in order: its row among the readings (`rows`), the name of the sensor, the
+    ends of the range, and its place in an observation. An action is as many numbers as its parts have, one part after
+    the other: of the commands `driven` least + command · (most − least) at the places `to`, and at others a choice:
+    there it is the k-th of some numbers, where of the actuators in some rows the k-th has the largest command.
     """
 
     rows: NDArray[np.int64]
@@ -150,20 +154,26 @@ def wiring_of(graph: Graph, spaces: Spaces) -> EnvironmentWiring:
     driven, chosen = list[tuple[float, ...]](), defaultdict[int, list[tuple[int, int]]](list)
     for row, each in enumerate(graph.actuators):
         if slot := each.kind.slot:
-            name, place = _place(spaces.acted, slot)
+            [(name, place)] = _places(spaces.acted, slot)
             part, to = spaces.acted[name], firsts[name] + place
             if slot.chosen is None:
                 driven.append((row, to, *(_ends(slot) if slot.range else (part.low[place], part.high[place]))))
             else:
                 chosen[to].append((row, slot.chosen))
-    low, high = np.array([_ends(slot) for slot in sensors.values()], np.float64).reshape(-1, 2).T
+    read = [
+        (sensor.start + number, sensor.name, place, _ends(slot))
+        for sensor in graph.sensors
+        if (slot := sensor.kind.slot)
+        for number, place in enumerate(_places(spaces.observed, slot))
+    ]
+    low, high = np.array([ends for *_, ends in read], np.float64).reshape(-1, 2).T
     rows, places, least, most = np.array(driven, np.float64).reshape(-1, 4).T
     return EnvironmentWiring(
-        rows=np.array([sensor.start for sensor in graph.sensors if sensor.name in sensors], np.int64),
-        names=tuple(sensors),
+        rows=np.array([row for row, *_ in read], np.int64),
+        names=tuple(name for _, name, *_ in read),
         low=low,
         high=high,
-        places=tuple(_place(spaces.observed, slot) for slot in sensors.values()),
+        places=tuple(place for _, _, place, _ in read),
         action_numbers=sum(sizes),
         driven=rows.astype(np.int64),
         to=places.astype(np.int64),
@@ -173,11 +183,12 @@ def wiring_of(graph: Graph, spaces: Spaces) -> EnvironmentWiring:
     )
 
 
-def _place(parts: Mapping[str, SpacePart], slot: Slot) -> Place:
+def _places(parts: Mapping[str, SpacePart], slot: Slot) -> list[Place]:
+    """The place of the number that a slot is, or those of its numbers."""
     name, part, index = found(parts, slot)
-    place = part.place(index) if part else None
+    place = part.place(index) if part and slot.last is None else index[0]
     assert place is not None
-    return name, place
+    return [(name, each) for each in range(place, (place if slot.last is None else slot.last) + 1)]
 
 
 def _ends(slot: Slot) -> tuple[float, float]:
