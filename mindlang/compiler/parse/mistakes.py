@@ -52,7 +52,8 @@ OPENINGS = (
         "There is an invisible character here.", "Delete it; it often comes along when text is copied from a page.",
         "\u200btick 1/60 s"),
     Mistake("merge-mark", r"^\s*(?P<here><{7}|={7}|>{7}|\|{7})", "This mark is left over from merging two versions.",
-        "Keep one of the versions, and take the marks out.", "    Mistake("comment", r"""^\s*(?P<here>//|;|--(?!-)|%|/\*|\*/|<!--|\"{3}|'{3})""", "A comment begins with #.",
+        "Keep one of the versions, and take the marks out.", "<<<<<<< HEAD"),
+    Mistake("comment", r"""^\s*(?P<here>//|;|--(?!-)|%|/\*|\*/|<!--|\"{3}|'{3})""", "A comment begins with #.",
         "Write # instead of {here}.", "// the left one"),
     Mistake("comment", r"^\s*(?P<here>[-=*_~`]{2,}.*)$", "This line says nothing.",
         "Leave it out, or make it a comment with #.", "---"),
@@ -141,7 +142,6 @@ MISTAKES = (
         r"(?=\s*$|\s+(?:range|neutral|noise|lost|every|delay)\s)",
         "Which of the numbers it is, is missing.", "Write {here} 0; the first has the number 0.",
         "sensor height is observation range 0 to 1"),
-<<<<<<< HEAD
     Mistake("missing-value", r"^\s*sensor\s+\w+\s+is\s+(?P<here>order)(?=\s*$|\s+(?:every|neutral|lost|timeout)\s)",
         "Of which orders it is one, is missing.", "Write order 1 to 7 for one of seven, or order 0 to 1 for a number.",
         "sensor wanted is order timeout 2 s"),
