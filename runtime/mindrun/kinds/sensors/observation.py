@@ -65,12 +65,12 @@ class Observations(Physical):
         """One reading for each number."""
         return (max(1, self.to - self.observations[-1] + 1),)
 
-    def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
+    def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
         """A flaw where it ends before it begins, or its range has not two ends."""
         if self.to < self.observations[-1]:
             hint = "Write the first number, then the last: observations 0 to 9."
             return Flaw("range-backwards", "to", "This range ends below its beginning.", hint)
-        return Observation.flaw(self, widths)  # type: ignore[arg-type]  # which asks for no more than the slot
+        return Observation.flaw(self, widths, directions)  # type: ignore[arg-type]  # which asks for no more than the slot
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
