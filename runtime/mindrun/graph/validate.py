@@ -142,7 +142,8 @@ def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
     if any(thing.kind.size == UNSAID for thing in task.things):
         yield "contains what has no size"
     about = (*task.events, *task.measures, *(thing.kind for thing in task.things))
-    named = {getattr(part, each.field) for part in about for each in arguments(type(part)) if each.type == THING}
+    said = (getattr(part, each.field) for part in about for each in arguments(type(part)) if each.type == THING)
+    named = {name for name in said if isinstance(name, str)}  # and no region
     if not named - {"", ROBOT} <= {thing.name for thing in task.things if not thing.kind.is_obstacle}:
         yield "names a thing that is not there"
     yield from _world_flaws(task)
