@@ -91,13 +91,8 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
         case syntax.Reads(name, stands_for):
             yield name, READABLE_NOUNS
             yield from _if_any(stands_for, *READABLE_NOUNS)
-        case syntax.Sends(name):
-            nouns = DRIVABLE_NOUNS if isinstance(line, syntax.Drives) else ("skill",)
-            yield name, nouns
-            yield from _if_any(line.stands_for, *nouns)
-            over = line.over or () if isinstance(line, syntax.Influences) else ()
-            yield from ((each, DRIVABLE_NOUNS) for each in over)
-            yield from _in_expressions(*syntax.expressions_in(line))
+        case syntax.Sends():
+            yield from _in_output(line)
         case syntax.Contains(name, phrase):
             yield name, ("thing",)
             yield from _in_phrase("content", phrase)
@@ -121,6 +116,16 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
         case syntax.Teaches(skill, task, master):
             yield from ((skill, ("skill",)), (task, ("task",)), *_if_any(master, "skill"))
             yield from _in_arguments(line.arguments, kinds("curriculum").values())
+
+
+def _in_output(line: syntax.Sends) -> Iterator[Named]:
+    """The names in a line that drives or influences: where it goes, and what it goes over."""
+    nouns = DRIVABLE_NOUNS if isinstance(line, syntax.Drives) else ("skill",)
+    yield line.name, nouns
+    yield from _if_any(line.stands_for, *nouns)
+    over = line.over or () if isinstance(line, syntax.Influences) else ()
+    yield from ((each, DRIVABLE_NOUNS) for each in over)
+    yield from _in_expressions(*syntax.expressions_in(line))
 
 
 def _if_any(name: Name | None, *nouns: str) -> Iterator[Named]:

@@ -7,7 +7,8 @@ from typing import Any
 
 from mindrun.kinds.registry import Argument as Parameter
 from mindrun.kinds.registry import arguments, find_kind, kinds
-from mindrun.kinds.things.thing import ROBOT, WITHIN, AboutThing
+from mindrun.kinds.things.about import AboutThing
+from mindrun.kinds.things.thing import ROBOT, WITHIN
 from mindrun.numbers.quantity import COORDINATE, SLOT, Quantity, Reference
 
 from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed

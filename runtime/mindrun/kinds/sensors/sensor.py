@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol
 
 from mindrun.kinds.environment import Slot
 from mindrun.kinds.registry import arguments, base, named_arguments
-from mindrun.kinds.things.thing import AboutThing, WorldFacts
+from mindrun.kinds.things.about import AboutThing
+from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.expression import Formula
 from mindrun.numbers.quantity import ANGLE, RATIO, SENSOR, TICKS
 

@@ -7,12 +7,12 @@ from typing import Annotated, Literal, get_args
 
 from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
+from mindrun.kinds.things.about import AboutThing
 from mindrun.kinds.things.thing import (
     DEFAULT_DISTANCE,
     DEFAULT_SIZE,
     OUTCOME,
     STAYS,
-    AboutThing,
     Alternatives,
     Outcome,
     ThingKind,

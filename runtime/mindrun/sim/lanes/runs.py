@@ -6,8 +6,9 @@ from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import ANGLE, COSINE, SINE, X, Y, sine_cosine
 from mindrun.sim.codes import DRAWN_NUMBER, GOING_ON, LEAVE, LOST, VISIT, Tables
 from mindrun.sim.lanes.drawn_numbers import draw_numbers, set_numbers
-from mindrun.sim.lanes.judge import begin_inside, patch_of
+from mindrun.sim.lanes.judge import patch_of
 from mindrun.sim.lanes.placement import draw, vanish
+from mindrun.sim.lanes.reaching import begin_inside
 from mindrun.sim.lanes.solid import is_lost
 from mindrun.sim.lanes.think import run_program
 from mindrun.sim.state import PLACE_ROWS, Jobs, State
