@@ -154,7 +154,8 @@ class Renaming:
         """All names of the minds and those that are renamed, so that a name stands for the noun that it does there."""
         table: dict[str, dict[str, Any]] = {noun: {**named} for noun, named in self.names.items()}
         for mind in self.minds:
-            parts: list[Any] = [*mind.sensors, *mind.memories, *mind.actuators, *mind.skills, *mind.tasks]
+            parts: list[Any] = [*mind.sensors, *mind.memories, *mind.actuators, *mind.skills]
+            parts += [draw for task in mind.tasks for draw in task.draws]
             for part in parts:
                 table.setdefault(type(part).__name__.lower(), {})[part.name] = part
         return Names(table)

@@ -240,11 +240,13 @@ OUTSIDE = """\
 tick 1/50 s
 master Top
 sensor height is observation image 3 range -0.5 to 2
+sensor view is observations image 4 to 9 range 0 to 255
 actuator engine is action left 0 neutral 0.5 range -1 to 1
 actuator fire is choice 2 neutral 0
 memory mood is cell decay 0.95
 skill Top is mlp
   reads height
+  reads view
   reads mood
   drives engine
   drives fire

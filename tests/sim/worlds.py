@@ -277,7 +277,7 @@ def _measures(draw: st.DrawFn, things: tuple[Thing, ...]) -> tuple[MeasureKind, 
     for name in named:
         measures += [Progress(name), Advance(name), Retreat(name)]
     pairs = [*permutations(named, 2)]
-    for to, of in draw(st.lists(st.sampled_from(pairs), max_size=1)) if pairs else ():
+    for to, of in draw(st.lists(st.sampled_from(pairs), max_size=2)) if pairs else ():
         measures += [Progress(to, of), Advance(to, of), Retreat(to, of), Apart(to, of)]
     return tuple(draw(st.lists(st.sampled_from(measures), unique=True, min_size=1, max_size=4)))
 

@@ -31,7 +31,8 @@ class Change:
     """A number that is replaced from tick `first` to `last`, both counted from 1; to the end where `last` is None.
 
     `row` is the place of a reading or memory cell in the vector of readings, or that of a skill. It is `values[0]` in
-    the first of the ticks, `values[1]` in the next, and stays at the last of them.
+    the first of the ticks, `values[1]` in the next, and stays at the last of them. Influence that counts over some
+    actuators more than over others does so in the same ratios.
     """
 
     what: What

@@ -113,7 +113,7 @@ def think(
     faults = 0
     for skill in mind.skills:
         if skill.index in replaced:
-            influence[:, skill.index] = replaced[skill.index]
+            influence[:, skill.index] = in_scopes(influence[:, skill.index], replaced[skill.index])
         if influence[0, skill.index] == 0:
             continue
         for edge, value in zip(skill.edges, values(skill, readings), strict=True):
@@ -131,6 +131,13 @@ def think(
                 elif not value * own < edge.cuts:
                     influence[scope, edge.to] += value * own
     return _mean(influence[0], commands, influences, faults)
+
+
+def in_scopes(influence: NDArray[np.float32], value: float) -> NDArray[np.float32]:
+    """Influence [scopes] of a skill that is `value` in the first scope: in the same ratios, or all `value` after 0."""
+    before, now = influence.astype(np.float64), np.float64(np.float32(value))
+    found = np.full(len(before), now) if before[0] == 0 else before * now / before[0]  # exact where nothing changes
+    return found.astype(np.float32)
 
 
 def values(skill: ReadySkill, readings: NDArray[np.float32]) -> list[np.float32 | None]:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.engine.changes import Change, Changed, ChangeError, calm_ticks, in_tick
+from mindrun.engine.think import in_scopes
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, COSINE, LOOSE_ROWS, SINE, SIZE, THING_ROWS, TURN
 from mindrun.numbers.short_repr import ShortRepr
 from mindrun.sim.codes import Tables
@@ -325,8 +326,9 @@ def _think(rollout: Rollout, tile: Tile, jobs: Jobs, replaced: Mapping[int, floa
     skills, begin = rollout.tables.skills["index"], 0
     for row in [i for i, index in enumerate(skills) if int(index) in replaced]:
         rollout.think(tile, jobs, begin, row)
-        mind, value = tile.state.mind, replaced[int(skills[row])]
-        mind.influence[skills[row], 0] = value
-        mind.scoped[skills[row] :: len(mind.influence), 0] = value
+        mind, skill = tile.state.mind, int(skills[row])
+        scoped = mind.scoped[skill :: len(mind.influence), 0]
+        mind.influence[skill, 0], *others = in_scopes(np.append(mind.influence[skill, 0], scoped), replaced[skill])
+        scoped[:] = others
         begin = row
     rollout.think(tile, jobs, begin, len(skills))
