@@ -276,10 +276,9 @@ def _measures(draw: st.DrawFn, things: tuple[Thing, ...]) -> tuple[MeasureKind, 
     measures: list[MeasureKind] = [Forward(), CommandChange("thrust", 0.2, 4), CommandChange("thrust", 0.0, 1)]
     for name in named:
         measures += [Progress(name), Advance(name), Retreat(name)]
-    pairs = [*permutations(named, 2)]
-    for to, of in draw(st.lists(st.sampled_from(pairs), max_size=2)) if pairs else ():
-        measures += [Progress(to, of), Advance(to, of), Retreat(to, of), Apart(to, of)]
-    return tuple(draw(st.lists(st.sampled_from(measures), unique=True, min_size=1, max_size=4)))
+    between = [kind(to, of) for kind in (Progress, Advance, Retreat, Apart) for to, of in permutations(named, 2)]
+    some = draw(st.lists(st.sampled_from(measures), unique=True, min_size=1, max_size=3))
+    return (*some, *(draw(st.lists(st.sampled_from(between), unique=True, max_size=2)) if between else ()))
 
 
 @st.composite
@@ -297,8 +296,8 @@ def _events(draw: st.DrawFn, scene: SceneKind, things: tuple[Thing, ...]) -> tup
             events += [Delivery(thing.name, zone.name) for zone in things if isinstance(zone.kind, Zone)]
     if isinstance(scene, Arena):
         events += [Visit("patch", 2.0), Visit("patch", 7.0)]
-    events += draw(st.lists(st.sampled_from(crossing), max_size=2)) if crossing else []
-    return tuple(draw(st.lists(st.sampled_from(events), unique=True, max_size=5)))
+    some = draw(st.lists(st.sampled_from(events), unique=True, max_size=4))
+    return (*some, *(draw(st.lists(st.sampled_from(crossing), unique=True, max_size=2)) if crossing else ()))
 
 
 @st.composite
