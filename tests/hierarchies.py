@@ -1,6 +1,6 @@
 """Hypothesis strategies for whole hierarchies, their weights and what they read."""
 
-from collections.abc import Collection
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import pi, prod
 from pathlib import Path
@@ -20,7 +20,7 @@ from mindrun.kinds.sensors.bumper import Bumper
 from mindrun.kinds.sensors.claw import Contact, Held
 from mindrun.kinds.sensors.compass import Compass
 from mindrun.kinds.sensors.computed import Computed
-from mindrun.kinds.sensors.derived import Average, Derivative, Latch, Reading, Turned
+from mindrun.kinds.sensors.derived import Average, Derivative, Latch, Mirrored, Reading, Turned
 from mindrun.kinds.sensors.floor import Floor, Inside
 from mindrun.kinds.sensors.motion import Inertial, Odometer, Position, Speed, TurnRate
 from mindrun.kinds.sensors.nearest import Bearing, Distance, Light
@@ -35,7 +35,7 @@ SHARES = st.floats(0, 1, width=32)
 EYES = tuple(map(float, range(10)))
 WORLDLY = [
     RangeFinder(at=EYES),
-    RangeFinder(at=EYES[:3], range=4.0, dead_zone=0.0),
+    RangeFinder(at=(-1.0, 0.5, -0.5, 1.0), range=4.0, dead_zone=0.0),
     Bearing("object"),
     Bearing("coin", range=5.0, dead_zone=0.1),
     Bearing("rock"),
@@ -76,7 +76,7 @@ WORLDLY = [
     Position("x"),
     Position("y", range=8.0),
     Floor("den"),
-    Floor("coin", at=(0.0, 0.7, -3.0), ahead=1.5),
+    Floor("coin", at=(0.7, 0.0, -0.7), ahead=1.5),
     Bumper(),
     Bumper(at=EYES[:6], width_=1.2),
     Order(Span(1.0, 3.0)),
@@ -93,7 +93,9 @@ ROUGH = st.fixed_dictionaries(
         "delay": st.integers(1, 3),
     },
 )
-VIRTUAL = st.sampled_from(["sine", "clock", "derivative", "computed", "latch", "average", "reading", "turned"])
+VIRTUAL = st.sampled_from(
+    ["sine", "clock", "derivative", "computed", "latch", "average", "reading", "turned", "mirrored"]
+)
 ACTUATORS = [Wheel("left", 0.5), Wheel("right", 0.5, delay=2), Gripper(0.0), Servo(0.3)]
 CALLED = Procedure("")
 PROCEDURES = Path(__file__).parent / "procedures"  # the folder of the modules that are called
@@ -228,8 +230,7 @@ def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
     for number, kind in enumerate(kinds):
         width = prod(getattr(kind, "shape", ()))
         if isinstance(kind, str):
-            around = directions({sensor.name: sensor.kind for sensor in sensors})
-            width, kind = draw(virtual_kinds(kind, widths, around))
+            width, kind = draw(virtual_kinds(kind, widths, {sensor.name: sensor.kind for sensor in sensors}))
         sensors.append(Sensor(f"s{number}", kind, start, width))
         widths[f"s{number}"] = width
         start += width
@@ -237,14 +238,20 @@ def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
     return _placed([sensors[i] for i in places]), tuple(Memory(f"m{i}", c, start + i) for i, c in enumerate(cells))
 
 
+def has_mirror(of: str, widths: Mapping[str, int], known: Mapping[str, SensorKind]) -> bool:
+    """True if a sensor may be mirrored."""
+    return not (Mirrored(of).flaw(widths, directions(known)) or Mirrored(of).misfit(known))
+
+
 @st.composite
 def virtual_kinds(
-    draw: st.DrawFn, kind: str, widths: dict[str, int], around: Collection[str] = ()
+    draw: st.DrawFn, kind: str, widths: dict[str, int], known: Mapping[str, SensorKind]
 ) -> tuple[int, SensorKind]:
     """A sensor that is computed, and how many readings it has; of a source, where there is one.
 
-    It is often of one of those that are read `around`, as directions are.
+    It is often of a direction.
     """
+    around = directions(known)
     if kind == "clock":
         return 1, Clock(draw(st.sampled_from([0.05, 0.3, 2.0])))
     if kind == "sine" or not widths:
@@ -259,6 +266,9 @@ def virtual_kinds(
             return widths[of], Average(of, draw(st.integers(1, 5)))
         case "turned" if around:
             return 1, Turned(draw(st.sampled_from(sorted(around))), draw(st.sampled_from([pi, -1.0, 7.5])))
+        case "mirrored" if alike := [of for of in sorted(widths) if has_mirror(of, widths, known)]:
+            of = draw(st.sampled_from(alike))
+            return widths[of], Mirrored(of)
         case "reading":
             of = draw(st.sampled_from([name for name, width in sorted(widths.items()) if width > 1] or [of]))
             return 1, Reading(draw(st.integers(1, widths[of])), of)

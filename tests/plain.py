@@ -7,7 +7,7 @@ import numpy as np
 from mindrun.kinds.functions.procedure import Procedure
 from mindrun.kinds.sensors.compass import Compass
 from mindrun.kinds.sensors.computed import Computed
-from mindrun.kinds.sensors.derived import Average, Derivative, Reading, Turned
+from mindrun.kinds.sensors.derived import Average, Derivative, Mirrored, Reading, Turned
 from mindrun.kinds.sensors.nearest import Bearing
 from mindrun.kinds.sensors.waves import Clock, Sine
 from mindrun.numbers.arithmetic import DENOMINATOR, LIMIT, NUMERATOR
@@ -83,6 +83,9 @@ class Plain:
             case Turned():
                 way = np.float64(self.readings[source.start + i]) - np.float64(f(kind.by / (2 * math.pi)))
                 return f(way if 0 <= way <= 1 else way - math.floor(way) if math.isfinite(way) else way)
+            case Mirrored():
+                other = self.readings[source.start + sensor.width - 1 - i]
+                return f(1) - other if turns(source, parts) else other
             case Reading():
                 return self.readings[source.start + kind.reading - 1]
         past = self.past.setdefault((sensor.name, i), [])
@@ -220,7 +223,7 @@ class Plain:
 def turns(part, parts):
     """Whether a sensor or memory reads a direction."""
     match part.kind:
-        case Average(of=of) | Reading(of=of) | Turned(of=of):
+        case Average(of=of) | Reading(of=of) | Turned(of=of) | Mirrored(of=of):
             return turns(parts[of], parts)
         case Computed(at=formula):
             return is_turned(formula, parts)

@@ -243,8 +243,12 @@ def hierarchy_graph(mind: Mind) -> DiGraph:
     skills = {skill.name: skill for skill in mind.skills}
     for skill in mind.skills:
         here = Node("skill", skill.name)
-        written = (*skills[skill.owner].declaration.facts, *skill.declaration.facts)
-        lines = {fact.name.text: fact.span for fact in syntax.of_form(written, syntax.Reads)}
+        said, lines = skill.declaration, dict[str, Span]()
+        while True:  # its own lines, and those of the skills that it is like
+            lines = {fact.name.text: fact.span for fact in syntax.of_form(said.facts, syntax.Reads)} | lines
+            if not said.header.like:
+                break
+            said = skills[said.header.like.text].declaration
         for name in skill.reads:
             connect(read[name], here, "reads", lines[name])
         for edge in skill.edges:

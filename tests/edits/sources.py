@@ -76,6 +76,7 @@ SENSORS = {
     "mood": ["memory mood is cell decay 0.9", "memory mood is cell decay 95%"],
     "north": ["sensor north is compass"],
     "flight": ["sensor flight is turned of ball_bearing by 180 deg", "sensor flight is turned of north by -45 deg"],
+    "flip": ["sensor flip is mirrored of ball_bearing", "sensor flip is mirrored of north"],
     "near": ["sensor near is contact of ball", "sensor near is contact of coin"],
     "holding": ["sensor holding is held of ball", "sensor holding is held of coin"],
     "home": ["sensor home is inside of nest", "sensor home is inside of dock"],

@@ -30,6 +30,7 @@ EXAMPLES = [
     Example("lander", "Box2D", "Land", 220.0),
     Example("walker", "Box2D", "Walk", -60.0),
     Example("doorkey", "minigrid", "Fetch", 85.0),
+    Example("gaits", "gymnasium", "Seek", 70.0),
 ]
 
 

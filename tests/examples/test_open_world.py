@@ -14,6 +14,7 @@ REACHED = {
     "line": ("Unseen", ["score_mean"], 70.0),
     "maze": ("Explore", ["success", "mean"], 0.85),
     "patrol": ("Guard", ["score_mean"], 190.0),
+    "road": ("Drive", ["score_mean"], 130.0),
     "soccer": ("Score", ["success", "mean"], 0.9),
     "sort": ("Sort", ["success", "mean"], 0.85),
 }

@@ -12,6 +12,7 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes, learners
 
 from mindlang.compiler.compile import Compiled, compile_source
+from mindlang.compiler.model import Node
 from mindlang.compiler.source import Source
 from tests.engine.resealed import resealed
 
@@ -97,6 +98,14 @@ def test_it_says_what_it_is_like_in_the_end() -> None:
     assert named(mind, "Again").inputs == (2, 3, 6)
     other_order = graph(again, ALIKE, TOP, GO)
     assert {skill.name: skill.inputs for skill in mind.skills} == {s.name: s.inputs for s in other_order.skills}
+
+
+def test_a_line_of_each_that_it_is_like_says_what_it_reads() -> None:
+    texts = ROBOT, GO, ALIKE, "\nskill Again is like Back\n  reads charge for far\n", TOP
+    mind, lines = compiled(*texts[1:]).whole[0], "".join(texts).split("\n")
+    into = mind.hierarchy.in_edges(Node("skill", "Again"), data=True)
+    said = [lines[edge["line"] - 1] for _, _, edge in into if edge["relation"] == "reads"]
+    assert said == ["  reads ears for eyes", "  reads charge for far"]
 
 
 def test_it_has_no_weights_of_its_own() -> None:

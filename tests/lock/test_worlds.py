@@ -47,6 +47,7 @@ sensor charge is battery
 sensor pulse is sine period 2 s
 sensor north is compass
 sensor south is turned of north by 180 deg
+sensor image is mirrored of north
 sensor way is distance of ball
 sensor glow is light of ball
 sensor camera is eye of ball at -30 30 deg
@@ -85,6 +86,7 @@ skill Grab is rule
 
 skill Watch is rule
   reads south
+  reads image
   reads way
   reads glow
   reads camera

@@ -22,6 +22,7 @@ NOT_RUN = {  # what cannot be, by what it begins with or contains
 }
 NEEDS = {
     "examples/doorkey/README.md": "minigrid",
+    "examples/gaits/README.md": "gymnasium",
     "examples/lander/README.md": "Box2D",
     "examples/walker/README.md": "Box2D",
 }

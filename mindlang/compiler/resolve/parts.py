@@ -80,9 +80,10 @@ def sensors(names: Names, findings: Findings) -> Parts:
         widest = max(found, key=lambda sensor: sensor.width)
         message = f"With these {widest.width} the mind has {readings} readings."
         findings.error("too-many-readings", widest.span, message, f"A mind takes {MOST_READINGS}: leave some out.")
-    around = directions({sensor.name: sensor.kind for sensor in found})
-    for sensor in found:
-        if sensor.name not in formulas and (flaw := sensor.kind.flaw(widths, around)):
+    kinds = {sensor.name: sensor.kind for sensor in found}
+    around = directions(kinds)
+    for sensor in (each for each in found if each.name not in formulas):
+        if flaw := sensor.kind.flaw(widths, around) or sensor.kind.misfit(kinds):
             header = names.table["sensor"][sensor.name].header
             arguments = header.phrase.arguments if header.phrase else ()
             said = (each.value.span for each in arguments if each.key.text == flaw.field)

@@ -9,8 +9,8 @@ from mindrun.kinds.registry import kinds
 from mindlang.lint.study import Finding, Found, Study, name_words
 
 EVERYDAY = {
-    "arena", "battery", "cell", "contact", "disc", "genetic", "held", "inside", "item", "plain", "rule", "turned",
-    "zone",
+    "arena", "battery", "cell", "contact", "disc", "genetic", "held", "inside", "item", "mirrored", "plain", "rule",
+    "turned", "zone",
 }  # fmt: skip
 GOOD = """
 sensor charge is battery

@@ -70,13 +70,18 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
     """Readings lie side by side, and each sensor has as many as its kind."""
     start = 0
     widths = {memory.name: 1 for memory in graph.memories} | {sensor.name: sensor.width for sensor in graph.sensors}
-    around = directions({sensor.name: sensor.kind for sensor in graph.sensors})
+    kinds = {sensor.name: sensor.kind for sensor in graph.sensors}
+    around = directions(kinds)
     for sensor in graph.sensors:
         shape = sensor.kind.shape
         width = widths.get(sensor.kind.source) if shape is None else prod(shape)
         if sensor.width != width or sensor.start != start or sensor.width < 1:
             yield f"sensor {sensor.name} has not the readings of its kind"
-        elif not set(sensor.kind.sources) <= widths.keys() or sensor.kind.flaw(widths, around):
+        elif (
+            not set(sensor.kind.sources) <= widths.keys()
+            or sensor.kind.flaw(widths, around)
+            or sensor.kind.misfit(kinds)
+        ):
             yield f"sensor {sensor.name} cannot be computed"
         start += sensor.width
     try:

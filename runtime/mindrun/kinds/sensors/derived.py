@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from math import pi
+from math import inf, pi, remainder
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -197,6 +197,60 @@ class Turned(SensorKind):
             for p in range(n):
                 v = np.float64(now[p]) - np.float64(sensor.gain)
                 out[p] = F(v - np.floor(v) if v < 0.0 or v > 1.0 else v)
+
+
+@kind("sensor", "mirrored")
+class Mirrored(SensorKind):
+    """Another sensor, as a robot in a mirror has it: with left and right exchanged.
+
+    Of a direction it is 1 minus that. Of rays, switches or eyes on the floor it has the readings in opposite order, and
+    they have to stand alike on both sides: the first as far to one as the last to the other.
+    """
+
+    of: Annotated[str, SENSOR]
+
+    circular = shape = None
+
+    def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
+        """A flaw where the source is a single reading without left and right."""
+        if self.of in directions or widths.get(self.of, 2) > 1:
+            return None
+        hint = f"If it reads less on the left and more on the right, write computed at 1 - {self.of}."
+        return Flaw("no-mirror", "of", f"{self.of} has one reading, and is not a direction.", hint)
+
+    def misfit(self, kinds: Mapping[str, SensorKind]) -> Flaw | None:
+        """A flaw where several readings of what was measured do not stand alike on both sides."""
+        measured = kinds.get(self.of)
+        for _ in kinds:  # behind an average, a latch … of it
+            measured = kinds.get(measured.source) if measured and measured.shape is None else measured
+        if measured is None or not measured.shape:
+            return None
+        turn, sides = 2 * pi, measured.directions
+        if not sides:
+            turn, sides = inf, tuple(left for _, left in measured.spots)
+        if sides and all(abs(remainder(a + b, turn)) < 1e-9 for a, b in zip(sides, reversed(sides), strict=True)):
+            return None
+        hint = "Mirror a sensor that measures at angles or places as these: at -60 -20 20 60 deg."
+        return Flaw("no-mirror", "of", f"The readings of {self.of} do not stand alike on both sides.", hint)
+
+    def first(self, begin: Begin) -> Bounds | None:
+        """None: what is known of the source is mirrored, too."""
+        return None
+
+    def reader(self, scene: Scene) -> Reader:
+        """1 less the source where that is a direction, else its readings from the last to the first."""
+        import numpy as np
+
+        source, turns = scene.places[self.of], self.of in scene.directions
+        return lambda number, now, before: np.float32(1) - now[source] if turns else now[source][::-1]
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """1 less the source where that is a direction, else its readings from the last to the first."""
+        for k in range(sensor.width):
+            out, now = s.readings[sensor.start + k], s.readings[sensor.source + sensor.width - 1 - k]
+            for p in range(n):
+                out[p] = ONE - now[p] if sensor.turns else now[p]
 
 
 @kind("sensor", "latch")

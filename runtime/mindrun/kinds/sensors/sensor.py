@@ -127,6 +127,10 @@ class SensorKind(AboutThing):
         """
         return None
 
+    def misfit(self, kinds: Mapping[str, SensorKind]) -> Flaw | None:
+        """The error in what it is computed from, one of the sensors of these kinds, or None."""
+        return None
+
     @property
     def battery(self) -> BatteryModel | None:
         """The model of the battery that it reads; None where it reads none."""
