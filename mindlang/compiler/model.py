@@ -241,10 +241,14 @@ def hierarchy_graph(mind: Mind) -> DiGraph:
         for source in dict.fromkeys(sensor.kind.sources):
             connect(read[source], read[sensor.name], "computes", sensor.span)
     skills = {skill.name: skill for skill in mind.skills}
+
+    def facts(skill: Skill) -> tuple[syntax.Fact, ...]:
+        like = skill.declaration.header.like
+        return (*(facts(skills[like.text]) if like else ()), *skill.declaration.facts)
+
     for skill in mind.skills:
         here = Node("skill", skill.name)
-        written = (*skills[skill.owner].declaration.facts, *skill.declaration.facts)
-        lines = {fact.name.text: fact.span for fact in syntax.of_form(written, syntax.Reads)}
+        lines = {fact.name.text: fact.span for fact in syntax.of_form(facts(skill), syntax.Reads)}
         for name in skill.reads:
             connect(read[name], here, "reads", lines[name])
         for edge in skill.edges:
