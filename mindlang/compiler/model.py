@@ -241,17 +241,18 @@ def hierarchy_graph(mind: Mind) -> DiGraph:
         for source in dict.fromkeys(sensor.kind.sources):
             connect(read[source], read[sensor.name], "computes", sensor.span)
     skills = {skill.name: skill for skill in mind.skills}
-
-    def facts(skill: Skill) -> tuple[syntax.Fact, ...]:
-        like = skill.declaration.header.like
-        return (*(facts(skills[like.text]) if like else ()), *skill.declaration.facts)
-
     for skill in mind.skills:
         here = Node("skill", skill.name)
-        lines = {fact.name.text: fact.span for fact in syntax.of_form(facts(skill), syntax.Reads)}
+        lines = {fact.name.text: fact.span for fact in syntax.of_form(_facts(skill, skills), syntax.Reads)}
         for name in skill.reads:
             connect(read[name], here, "reads", lines[name])
         for edge in skill.edges:
             relation = "influences" if edge.to == "skill" else "drives"
             connect(here, Node(edge.to, edge.target), relation, skill.place_of(edge), edge.over)
     return graph
+
+
+def _facts(skill: Skill, skills: Mapping[str, Skill]) -> tuple[syntax.Fact, ...]:
+    """The facts of a skill, behind those of the one that it is like."""
+    like = skill.declaration.header.like
+    return (*(_facts(skills[like.text], skills) if like else ()), *skill.declaration.facts)
