@@ -160,6 +160,7 @@ class _Resolver:
         visible = Visible(
             widths,
             commands=frozenset(places.actuators),
+            draws=self.subject.draws,
             made_of="numbers, readings, memories and the commands of actuators",
             where="What a run stops at",
         )
@@ -220,6 +221,7 @@ def _named(
     """The operands of a condition, each once: its text, and its word and operand in the program; numbers are none."""
     words = {("reading", start): name for name, (start, _) in subject.places.readings.items()}
     words |= {("command", place): name for name, place in subject.places.actuators.items()}
+    words |= {("drawn", place): draw.name for draw, place in subject.places.draws.items()}
     for number, each in enumerate(transmissions):
         skill, target = subject.graph.skills[each.skill].name, subject.graph.named(each.to, each.target)
         words["measure", number] = f"{skill} influences {target}"

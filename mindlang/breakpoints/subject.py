@@ -6,6 +6,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from mindrun.graph.draws import Draw
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.measured import measured_in_world, measured_on_robot
 from mindrun.graph.named_readings import physical
@@ -56,11 +57,17 @@ class BreakpointSubject:
         return cls(names_in(graph), graph, master, task, sensors, is_recorded=True)
 
     @cached_property
+    def draws(self) -> Mapping[str, Draw]:
+        """The numbers that the task draws for each run, by their names."""
+        return {draw.name: draw for draw in self.task.draws} if self.task else {}
+
+    @cached_property
     def places(self) -> lower.Places:
-        """The places of the readings and the commands in a row."""
+        """The places of the readings and the commands in a row, and of the numbers that are drawn for the run."""
         readings = {each.name: (each.start, each.width) for each in self.graph.sensors}
         readings |= {each.name: (each.start, 1) for each in self.graph.memories}
-        return lower.Places(readings, {each.name: place for place, each in enumerate(self.graph.actuators)})
+        actuators = {each.name: place for place, each in enumerate(self.graph.actuators)}
+        return lower.Places(readings, actuators, draws={draw: place for place, draw in enumerate(self.draws.values())})
 
     @cached_property
     def unmeasured(self) -> set[str]:

@@ -1,7 +1,7 @@
 """Finds where breakpoints stop a run or a robot's recording, in its rows, which may come in parts of any size."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import chain
 from operator import neg
 from typing import Any
@@ -10,6 +10,7 @@ import numpy as np
 from mindrun.engine.engine import procedure_sources
 from mindrun.engine.think import Hierarchy, hierarchy
 from mindrun.graph.bundle import Bundle
+from mindrun.graph.draws import drawn_numbers
 from mindrun.graph.graph import Graph
 from mindrun.graph.recording_header import About
 from mindrun.kinds.events.event import EventKind
@@ -34,13 +35,14 @@ class RowBlock:
     `commands` [rows, actuators].
 
     `events` [rows, events] has how often each has happened since the beginning of the run; no columns where nobody
-    notices any.
+    notices any. `drawn` are the numbers that the task has drawn for the run, in their order.
     """
 
     readings: NDArray[np.float32]
     influence: NDArray[np.float32]
     commands: NDArray[np.float32]
     events: NDArray[np.int64]
+    drawn: Mapping[str, float] = field(default_factory=dict)
 
 
 Rows = RowBlock | RecordedRun
@@ -137,7 +139,8 @@ def evaluate_rows(program: Program, leaf: Leaf, rows: int) -> NDArray[np.float64
 
 
 def _leaf(rows: Rows, measures: Sequence[NDArray[np.float64]]) -> Leaf:
-    """A function for the value of a number, a reading, a command or a measure in each row, float64 as in the engine."""
+    """A function for the value of a word of a condition in each row, float64 as in the engine."""
+    drawn = [*rows.drawn.values()]
 
     def column(word: str, operand: Any) -> Any:
         match word:
@@ -147,6 +150,8 @@ def _leaf(rows: Rows, measures: Sequence[NDArray[np.float64]]) -> Leaf:
                 return rows.commands[:, int(operand)].astype(np.float64)
             case "measure":
                 return measures[int(operand)]
+            case "drawn":
+                return np.full(len(rows.readings), drawn[int(operand)])
         return np.float64(operand)
 
     return column
@@ -212,6 +217,7 @@ class RecordingWatcher:
         ready, task = hierarchy(mind.policy, mind.procedures, of.master), recorded_task(of, mind)
         events = (*robot_events(of.sensors), *(task.events if task else ()))
         self._watcher = Watcher(breakpoints, events, mind.graph, ready)
+        self._drawn = drawn_numbers(task.draws, of.world.seed) if task and of.world else {}
         self._before = np.zeros((1, 1 + len(of.sensors)), bool)  # whether it had to stop, and the faults
         self._times = np.zeros((1, 2 + len(of.sensors)), np.int64)
 
@@ -224,5 +230,5 @@ class RecordingWatcher:
         self._before, self._times = facts[-1:], np.concatenate([self._times, happened])[-1:]
         if "world" in (rows.dtype.names or ()):
             happened = np.concatenate([happened, rows["world"]["events"].astype(np.int64)], axis=1)
-        part = RowBlock(readings, rows["influence"], rows["commands"], happened)
+        part = RowBlock(readings, rows["influence"], rows["commands"], happened, self._drawn)
         return self._watcher.feed(part, np.flatnonzero(rows["tick"] == 0))

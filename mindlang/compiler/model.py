@@ -243,15 +243,16 @@ def hierarchy_graph(mind: Mind) -> DiGraph:
     skills = {skill.name: skill for skill in mind.skills}
     for skill in mind.skills:
         here = Node("skill", skill.name)
-        said, lines = skill.declaration, dict[str, Span]()
-        while True:  # its own lines, and those of the skills that it is like
-            lines = {fact.name.text: fact.span for fact in syntax.of_form(said.facts, syntax.Reads)} | lines
-            if not said.header.like:
-                break
-            said = skills[said.header.like.text].declaration
+        lines = {fact.name.text: fact.span for fact in syntax.of_form(_facts(skill, skills), syntax.Reads)}
         for name in skill.reads:
             connect(read[name], here, "reads", lines[name])
         for edge in skill.edges:
             relation = "influences" if edge.to == "skill" else "drives"
             connect(here, Node(edge.to, edge.target), relation, skill.place_of(edge), edge.over)
     return graph
+
+
+def _facts(skill: Skill, skills: Mapping[str, Skill]) -> tuple[syntax.Fact, ...]:
+    """The facts of a skill, behind those of the one that it is like."""
+    like = skill.declaration.header.like
+    return (*(_facts(skills[like.text], skills) if like else ()), *skill.declaration.facts)

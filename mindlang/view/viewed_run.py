@@ -57,9 +57,9 @@ class ViewedRun:
     def _watch(self) -> Watch | None:
         if not self.breakpoints:
             return None
-        watching = watcher(self.breakpoints, self.setup)
+        watching, drawn = watcher(self.breakpoints, self.setup), drawn_numbers(self.setup.task.draws, self.seed)
         return lambda rows, readings: watching.feed(
-            RowBlock(readings, rows["influence"], rows["commands"], rows["world"]["events"].astype(np.int64))
+            RowBlock(readings, rows["influence"], rows["commands"], rows["world"]["events"].astype(np.int64), drawn)
         )
 
     def _forked(self, columns: Columns, asked: messages.AskChange) -> tuple[Viewed, str]:

@@ -40,6 +40,8 @@ def breakpoints(graph: Graph, actuators: int) -> Iterator[Breakpoint]:
     causes += [Happens(event, times) for event in graph.tasks[0].events for times in (0, 2)]
     causes += [Holds((("reading", place), *LEVEL), (), ()) for place in range(min(4, graph.width))]
     causes += [Holds((("command", place), *LEVEL), (), ()) for place in range(actuators)]
+    for place, draw in enumerate(graph.tasks[0].draws):
+        causes.append(Holds((("drawn", place), ("number", draw.values[0]), (">=", 0)), (), ()))
     names = [skill.name for skill in graph.skills]
     for skill in reachable(graph, graph.master):
         for edge in skill.edges:

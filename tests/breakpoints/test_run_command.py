@@ -88,6 +88,17 @@ def test_for_people_it_names_the_line_and_its_values(mindc: Call, rules: Path, b
     assert "1 of 1,200, ended by a breakpoint" in said.out
 
 
+def test_a_condition_may_ask_what_was_drawn(mindc: Call, tmp_path: Path, rules: Path, breaks: Path) -> None:
+    mind = tmp_path / "drawn.mind"
+    mind.write_text(f'use "{rules.name}"\nmaster Chase\ntask Sides is like Chase\n  draws side from -14 14\n')
+    for seed in range(4):
+        options = "--task", "Sides", "--seed", seed
+        side = json.loads(mindc("run", mind, *options, "--json").out)["drawn"]["side"]
+        data = found(mindc, mind, breaks, "stop when side > 0 and left_wheel >= 0\n", *options, code=int(side > 0))
+        assert (data["stopped"] is None) == (side < 0)
+        assert side < 0 or data["stopped"]["by"][0]["values"]["side"] == side
+
+
 def test_where_nothing_stops_it_the_run_is_the_run(mindc: Call, rules: Path, breaks: Path) -> None:
     plain = json.loads(mindc("run", rules, *CHASE, "--json").out)
     assert found(mindc, rules, breaks, "stop when left_wheel > 2", code=0) == plain | {"stopped": None}

@@ -96,6 +96,9 @@ def test_it_says_what_it_is_like_in_the_end() -> None:
         "Top": "Top",
     }
     assert named(mind, "Again").inputs == (2, 3, 6)
+    hierarchy = compiled(GO, ALIKE, again, TOP).mind.hierarchy
+    read = [(source, edge["line"]) for source, _, edge in hierarchy.in_edges(("skill", "Again"), data=True)]
+    assert sorted(read) == [(("sensor", "charge"), 25), (("sensor", "ears"), 20)]
     other_order = graph(again, ALIKE, TOP, GO)
     assert {skill.name: skill.inputs for skill in mind.skills} == {s.name: s.inputs for s in other_order.skills}
 
