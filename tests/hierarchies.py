@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from hypothesis import strategies as st
-from mindrun.graph.graph import Actuator, Edge, Gate, Graph, Memory, Program, Sensor, Skill
+from mindrun.graph.graph import Actuator, Edge, Gate, Graph, Memory, Program, Promise, Sensor, Skill
 from mindrun.graph.weights import genes
 from mindrun.kinds.actuators.actuator import Gripper, Servo, Wheel
 from mindrun.kinds.bodies.body import Disc
@@ -312,7 +312,16 @@ def _skills(draw: st.DrawFn, name: str, width: int, targets: list[tuple[str, int
         edges.append(replace(edge, gate=gate, cuts=cuts, over=tuple(sorted(over))))
     called = Procedure(f"own.send{outputs}") if function is CALLED else function
     chooses = any(edge.to == "skill" for edge in edges) and draw(st.integers(0, 3)) == 0
-    return Skill(name, called, inputs, tuple(edges), frozen=draw(st.booleans()), chooses=chooses)
+    promises = draw(st.lists(_promises(range(width)), max_size=3)) if draw(st.integers(0, 3)) == 0 else ()
+    frozen = draw(st.booleans())
+    return Skill(name, called, inputs, tuple(edges), frozen=frozen, chooses=chooses, promises=tuple(promises))
+
+
+@st.composite
+def _promises(draw: st.DrawFn, readings: range) -> Promise:
+    """Something that a skill promises of any readings."""
+    word = draw(st.sampled_from(["requires", "maintains", "achieves"]))
+    return Promise(word, f"{word} something", draw(conditions(programs(tuple(readings)))))
 
 
 @st.composite

@@ -93,6 +93,8 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
             yield from _if_any(stands_for, *READABLE_NOUNS)
         case syntax.Sends():
             yield from _in_output(line)
+        case syntax.Promise():
+            yield from _in_expressions(*syntax.expressions_in(line))
         case syntax.Contains(name, phrase):
             yield name, ("thing",)
             yield from _in_phrase("content", phrase)

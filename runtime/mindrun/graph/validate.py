@@ -114,6 +114,8 @@ def _skill_flaws(graph: Graph, number: int, skill: Skill, width: int) -> Iterato
         yield "has influence over what is not there"
     if skill.chooses and all(edge.to != "skill" for edge in skill.edges):
         yield "has nothing to choose"
+    if not all(is_condition(each.when) and _computes(each.when, range(width)) for each in skill.promises):
+        yield "promises what cannot be computed"
 
 
 def _likeness_flaws(graph: Graph) -> Iterator[str]:
