@@ -16,6 +16,7 @@ from mindrun.kinds.functions.procedure import Procedure
 from mindrun.kinds.memory import Cell
 from mindrun.kinds.registry import arguments, kinds
 from mindrun.kinds.sensors.battery import Battery
+from mindrun.kinds.sensors.broken import Broken
 from mindrun.kinds.sensors.bumper import Bumper
 from mindrun.kinds.sensors.claw import Contact, Held
 from mindrun.kinds.sensors.compass import Compass
@@ -93,7 +94,9 @@ ROUGH = st.fixed_dictionaries(
         "delay": st.integers(1, 3),
     },
 )
-VIRTUAL = st.sampled_from(["sine", "clock", "derivative", "computed", "latch", "average", "reading", "turned"])
+VIRTUAL = st.sampled_from(
+    ["sine", "clock", "derivative", "computed", "latch", "average", "reading", "turned", "broken"]
+)
 ACTUATORS = [Wheel("left", 0.5), Wheel("right", 0.5, delay=2), Gripper(0.0), Servo(0.3)]
 CALLED = Procedure("")
 PROCEDURES = Path(__file__).parent / "procedures"  # the folder of the modules that are called
@@ -130,7 +133,14 @@ def random_graph(draw: st.DrawFn, fewest_hidden: int = 0, alike: bool = True) ->
             targets = [("skill", i) for i in range(number + 1, count)]
             targets += [("actuator", i) for i in range(len(actuators))] + [("memory", i) for i in range(len(memories))]
             skills[number] = draw(_alike(f"S{number}", draw(st.sampled_from(owners)), width, targets))
+    sensors = tuple(_about(each, skills) for each in sensors)
     return Graph(1 / 60, Disc(), "S0", sensors, memories, actuators, tuple(skills), (), ())
+
+
+def _about(sensor: Sensor, skills: list[Skill]) -> Sensor:
+    """A sensor that is about a skill that is there, if it is about any."""
+    is_there = not isinstance(sensor.kind, Broken) or sensor.kind.broken in {skill.name for skill in skills}
+    return sensor if is_there else replace(sensor, kind=replace(sensor.kind, broken="S0"))
 
 
 @st.composite
@@ -268,6 +278,10 @@ def virtual_kinds(
         terms = (("reading", name), ("number", more))
         return 1, Computed((*(terms[::-1] if more > 0 else terms), ("-" if more == 0.1 else "+", 0)))
     sides = programs(tuple(range(len(single))))
+    if kind == "broken":
+        program = draw(conditions(sides))
+        formula = tuple((word, single[int(x)] if word == "reading" else x) for word, x in program)
+        return 1, Broken(draw(st.sampled_from(["S0", "S1"])), formula)
     numbered = draw(sides)
     if draw(st.integers(0, 2)) == 0:
         numbered = (*numbered, *draw(conditions(sides)), ("when", 0), *draw(sides), ("otherwise", 0))

@@ -159,6 +159,8 @@ def _in_arguments(written: Iterable[syntax.Argument], classes: Iterable[type[Any
                 yield value, ("thing",)
             case Name(), Noun(noun="sensor"):
                 yield value, READABLE_NOUNS
+            case Name(), Noun(noun="skill"):
+                yield value, ("skill",)
             case Name(), Quantity():
                 yield value, ("number",)
             case Name(), None if key == "from":

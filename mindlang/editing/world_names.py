@@ -21,6 +21,7 @@ from mindrun.graph.graph import (
     Graph,
     Lesson,
     Memory,
+    Promise,
     Reward,
     Sensor,
     Skill,
@@ -29,7 +30,7 @@ from mindrun.graph.graph import (
     Variation,
 )
 from mindrun.kinds.registry import arguments, names
-from mindrun.numbers.quantity import EXPRESSION, SENSOR, THING, Quantity, Reference
+from mindrun.numbers.quantity import EXPRESSION, SENSOR, SKILL, THING, Quantity, Reference
 
 from mindlang.compiler.names import Names
 from mindlang.compiler.parse.shape import parse_line
@@ -212,7 +213,7 @@ def renamed(node: T, name: Name) -> T:
 
 def _value(node: Any, field: Field[Any], name: Name) -> Any:
     value = getattr(node, field.name)
-    if isinstance(node, Reward | End) and field.name == "text":
+    if isinstance(node, Reward | End | Promise) and field.name == "text":
         return ""
     if isinstance(node, Variation) and field.name == "of":
         return name(value, node.noun)
@@ -228,6 +229,8 @@ def _argument(value: Any, meaning: Quantity | Reference | None, name: Name) -> A
         return name(value, "thing") if isinstance(value, str) else value
     if meaning == SENSOR:
         return name(value, *READABLE_NOUNS)
+    if meaning == SKILL:
+        return name(value, "skill")
     if meaning == EXPRESSION:
         new = ((word, name(x, *READABLE_NOUNS) if isinstance(x, str) else x) for word, x in value)
         return type(value)(map(type(value), new))

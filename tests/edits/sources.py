@@ -253,6 +253,8 @@ def _declarations(rng: Random) -> list[list[str]]:
     parts = [*(rng.choice(lines) for lines in choices), body]
     blocks = [[_more(rng, line.split()[0], line)] for line in parts]
     blocks += [_skill(rng, skill, functions[skill], skills[place + 1 :]) for place, skill in enumerate(skills)]
+    kept = [block[0].split()[1] for block in blocks if any(fact.startswith("maintains ") for fact in block[1:])]
+    blocks += [[f"sensor unsafe is broken {rng.choice(kept)}"]] if kept else []
     tasks = rng.sample([*SKILLS[:3], "Roam"], rng.randint(1, 2))
     blocks += [block for task in tasks for block in _in_scene(rng, _task(rng, task))]
     if rng.random() < 0.3:
