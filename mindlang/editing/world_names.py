@@ -63,6 +63,7 @@ NAMED: Mapping[type, Mapping[str, str]] = {
 OF_KINDS = "sensor", "memory", "actuator", "thing"  # the nouns of facts that are kinds
 
 Role = tuple[str | int, ...]  # where a text stands: the noun of its fact, and the keys and numbers that lead to it
+WORLDS = "task", "scene"
 _MARK = re.compile("\0([0-9]+)\0")  # no name has such a character
 _TITLE = re.compile(r"([a-z]\w*\.)?[A-Z]")
 _AROUND_SENTENCE: Mapping[Role, Callable[[str], tuple[str, str]]] = {
@@ -152,10 +153,13 @@ class Renaming:
 
     @cached_property
     def _declared(self) -> Names:
-        """All names of the minds and those that are renamed, so that a name stands for the noun that it does there."""
-        table: dict[str, dict[str, Any]] = {noun: {**named} for noun, named in self.names.items()}
+        """All names of the minds and those that are renamed, so that a name stands for the noun that it does there.
+
+        No fact of a world names a task.
+        """
+        table: dict[str, dict[str, Any]] = {noun: {**its} for noun, its in self.names.items() if noun not in WORLDS}
         for mind in self.minds:
-            parts: list[Any] = [*mind.sensors, *mind.memories, *mind.actuators, *mind.skills, *mind.tasks]
+            parts: list[Any] = [*mind.sensors, *mind.memories, *mind.actuators, *mind.skills]
             for part in parts:
                 table.setdefault(type(part).__name__.lower(), {})[part.name] = part
         return Names(table)

@@ -19,7 +19,7 @@ from tests.hierarchies import VIRTUAL, physical_kinds, virtual_kinds
 from tests.outside.drawn import environment_mind
 from tests.sim.worlds import learner_kinds, random_world, robot_kinds
 
-DRAWN, DRAWN_LISTS = 200, 40  # minds, and lists of kinds of which ten are enough
+DRAWN, DRAWN_LISTS = 400, 40  # minds, and lists of kinds of which ten are enough
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "event", "measure", "curriculum")
 OF_FILES = {"map"}  # which no text says by itself
 WIDTHS, DIRECTIONS = {"s0": 1, "s1": 3, "m0": 1}, ("s0", "m0")  # of what sensors are made of
