@@ -1,6 +1,7 @@
 """What skills promise, counted over runs: how often each promise was kept, and who broke it."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -8,7 +9,8 @@ from mindrun.engine.promises import BY_INFLUENCE, BY_SKILL, HELD, PromiseWatcher
 from mindrun.graph.graph import Graph
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
-from numpy.typing import NDArray
+
+from mindlang.run.edge_flow import EdgeFlows
 
 MAX_COUNTED_TICKS = 400_000  # of many runs: two seconds or so
 VERDICTS = {"held": HELD, "by_skill": BY_SKILL, "by_influence": BY_INFLUENCE}
@@ -23,7 +25,7 @@ class PromiseCounts:
         many = len(self.watcher.promises)
         self._times = {name: np.zeros(many, np.int64) for name in (*VERDICTS, "unfinished", "broken_runs")}
 
-    def add(self, parts: "Iterator[Any] | Sequence[Any]") -> int:
+    def add(self, parts: Iterable[Any]) -> int:
         """Count a run, of which parts have `readings` and `influence`; return how many ticks it had."""
         self.watcher.reset()
         ticks, was_broken = 0, np.zeros(len(self.watcher.promises), bool)
@@ -64,9 +66,25 @@ def promises_in(rollout: Rollout, master: str, seeds: Sequence[int]) -> list[dic
     return counts.data()
 
 
-def broken_ticks(judged: NDArray[np.int8]) -> NDArray[np.int64]:
-    """The ticks [n], counted from 1, in which any promise is broken."""
-    return np.flatnonzero((judged >= BY_SKILL).any(axis=1)) + 1
+def promises_of(skill: str, flows: EdgeFlows, rows: range) -> list[dict[str, Any]]:
+    """What a skill promises, in how many of some rows of a run it is judged, broken and by whom, and where first."""
+    watcher = PromiseWatcher(flows.graph, flows.master)
+    if not any(owner == skill for owner, _ in watcher.promises):
+        return []
+    readings, influence = flows.rows(np.arange(rows.stop))
+    begins = sorted({0, *(row for row in range(rows.stop) if row in flows.begins)})
+    parts = []
+    for begin, end in pairwise([*begins, rows.stop]):
+        watcher.reset()
+        parts.append(watcher.feed(readings[begin:end], influence[begin:end]))
+    found = []
+    for column, (owner, promise) in zip(np.concatenate(parts)[rows.start :].T, watcher.promises, strict=True):
+        if owner == skill:
+            times = {name: int((column == verdict).sum()) for name, verdict in VERDICTS.items()}
+            broken = np.flatnonzero(column >= BY_SKILL)
+            first = int(broken[0]) + rows.start + 1 if len(broken) else None
+            found.append({"promise": promise.text, **times, "first_broken": first})
+    return found
 
 
 def _told(word: str) -> tuple[str, ...]:
