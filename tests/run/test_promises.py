@@ -1,5 +1,6 @@
 """Promises change nothing that is computed, and are counted over runs as they are judged in one."""
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -64,9 +65,8 @@ def made(setup: RunSetup, seed: int) -> Ticks:
 
 
 def test_a_promise_changes_nothing_that_is_computed() -> None:
-    plain = "".join(
-        line for line in MIND.splitlines(True) if line.split()[0] not in ("requires", "maintains", "achieves")
-    )
+    promised = ("requires", "maintains", "achieves")
+    plain = "".join(line for line in MIND.splitlines(True) if line.split()[0] not in promised)
     one, other = made(prepared(MIND), 3), made(prepared(plain), 3)
     for name in ("body", "influence", "commands", "lines"):
         assert np.array_equal(getattr(one, name), getattr(other, name), equal_nan=True)
@@ -90,7 +90,7 @@ def test_a_broken_promise_is_read_in_the_tick_in_which_it_is_broken(seed: int) -
 def test_a_bench_counts_what_its_runs_have(mindc: Call, tmp_path: Path) -> None:
     path = tmp_path / "dock.mind"
     path.write_text(MIND, encoding="utf-8")
-    whole: list[dict[str, Any]] = mindc("bench", path, "--runs", 3, "--json").data["promises"]
+    whole: list[dict[str, Any]] = json.loads(mindc("bench", path, "--runs", 3, "--json").out)["promises"]
     setup = prepared(MIND)
     parts = [promises_in(setup.rollout(), "Feed", [seed]) for seed in setup.layouts(1, 3)]
     for i, each in enumerate(whole):
@@ -98,4 +98,4 @@ def test_a_bench_counts_what_its_runs_have(mindc: Call, tmp_path: Path) -> None:
         for name in each.keys() & {"held", "by_skill", "by_influence", "unfinished", "broken_runs"}:
             assert each[name] == sum(part[i][name] for part in parts)
     assert whole[0]["by_influence"] > 0
-    assert "SeekDock requires charge > 20%" in mindc("run", path, "--seed", 1).output
+    assert "SeekDock requires charge > 20%" in mindc("run", path, "--seed", 1).out
