@@ -73,17 +73,23 @@ def _cells(graph: Graph, above: list[Skill], program: Program) -> Boxes:
         highs = [*(each for mark in marks for each in (np.nextafter(mark, np.float32(-1)), mark)), np.float32(1)]
         if prod(map(len, sides.values())) * len(lows) <= MAX_BOXES:
             sides[row] = list(zip(lows, highs, strict=True))
-    made = np.array(list(product(*sides.values())), np.float32).reshape(-1, len(sides), 2)
+    cells = list(product(*sides.values()))
+    made = np.array(cells, np.float32).reshape(len(cells), len(sides), 2)
     low, high = (np.repeat(bound, len(made), axis=0) for bound in whole_box(graph.width))
     low[:, [*sides]], high[:, [*sides]] = made[:, :, 0], made[:, :, 1]
     return Boxes(low, high)
+
+
+def _bounds(program: Program, boxes: Boxes) -> tuple[Singles, Singles]:
+    with np.errstate(all="ignore"):
+        return expression_bounds(program, boxes)
 
 
 def _broken(graph: Graph, weights: Mapping[str, Weights], cells: Boxes, program: Program, skill: int) -> Singles | None:
     """Readings for which a skill acts where the program does not hold; None where none of those tried are such."""
     tried = np.concatenate([cells.low, cells.high, readings_to_try(graph.width, TRIED_READINGS)])
     acts = think_rows(graph, weights, tried).influence[:, skill] > 0
-    low, high = expression_bounds(program, Boxes(tried, tried))
+    low, high = _bounds(program, Boxes(tried, tried))
     rows = np.flatnonzero(acts & (low == 0) & (high == 0))
     return tried[rows[0]] if len(rows) else None
 
@@ -106,7 +112,7 @@ def _may_break(
     while len(waiting.low):
         now = select_boxes(waiting, slice(BOXES_PER_ROUND))
         waiting = select_boxes(waiting, slice(BOXES_PER_ROUND, None))
-        holds = expression_bounds(program, now)[0] > 0
+        holds = _bounds(program, now)[0] > 0
         open_ = select_boxes(now, (flow(graph, weights, found, now).high[:, skill] > 0) & ~holds)
         made += 2 * len(open_.low)
         if len(open_.low) and (made > most or not ((open_.high - open_.low) * sway).max(axis=1).all()):

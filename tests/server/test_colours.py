@@ -27,7 +27,7 @@ TOKENS = {
     "TEXT": "string.quoted.double",
     "ITS": FUNCTION,
     "ENVIRONMENT": "string.unquoted",
-    **dict.fromkeys(("COMPUTED", "NUMBERED", "SEVERAL", "ORDERED", "GYMNASIUM"), KIND),
+    **dict.fromkeys(("COMPUTED", "NUMBERED", "SEVERAL", "ORDERED", "BROKEN", "GYMNASIUM"), KIND),
     **dict.fromkeys(("FROM", "TO", "BY", "FACING", "AT"), KEY),
     **dict.fromkeys(("EXTREME", "AND", "OR", "TICK", "LEVEL"), WORD),
     **dict.fromkeys(("SIGN", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
