@@ -39,4 +39,4 @@ def test_each_requirement_is_proved_or_broken() -> None:
     assert broken.holds == "can be broken"
     assert broken.readings is not None
     assert evaluate(broken.promise.when, broken.readings) == 0
-    assert 0.05 < broken.readings[0] <= 0.06
+    assert 0.05 < float(broken.readings[0]) <= 0.06
