@@ -86,7 +86,11 @@ def sensors(names: Names, findings: Findings) -> Parts:
         findings.error("too-many-readings", widest.span, message, f"A mind takes {MOST_READINGS}: leave some out.")
     around = directions({sensor.name: sensor.kind for sensor in found})
     for sensor in found:
-        if sensor.name not in formulas and (flaw := sensor.kind.flaw(widths, around)):
+        if (
+            sensor.name not in formulas
+            and not isinstance(sensor.kind, Broken)
+            and (flaw := sensor.kind.flaw(widths, around))
+        ):
             header = names.table["sensor"][sensor.name].header
             arguments = header.phrase.arguments if header.phrase else ()
             said = (each.value.span for each in arguments if each.key.text == flaw.field)
