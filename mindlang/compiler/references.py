@@ -105,11 +105,9 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
             yield of, (*VARIED_NOUNS, "thing")
         case syntax.Fails(name):
             yield name, ("actuator", "sensor")
-        case syntax.Outcome(_, event, when):
+        case syntax.Outcome(event=event) | syntax.Counts(event):
             yield from _in_phrase("event", event)
-            yield from _in_expressions(*syntax.expressions_in(when))
-        case syntax.Counts(event):
-            yield from _in_phrase("event", event)
+            yield from _in_expressions(*syntax.expressions_in(line))
         case syntax.Rewards(amount, on, each, when):
             own = each.name.text if each else ""
             yield from _in_expressions(amount, *syntax.expressions_in(when), own=own)

@@ -359,8 +359,8 @@ class Teaches(Struct, frozen=True):
 
 
 Fact = (
-    Reads | Drives | Influences | Chooses | Stays | Requires | Maintains | Achieves | Contains | Starts | Draws | Varies
-    | Fails | Lasts | Ends | Succeeds | Rewards | Counts | Teaches
+    Reads | Drives | Influences | Chooses | Stays | Promise | Contains | Starts | Draws | Varies | Fails | Lasts | Ends
+    | Succeeds | Rewards | Counts | Teaches
 )  # fmt: skip
 
 

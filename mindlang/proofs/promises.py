@@ -23,6 +23,7 @@ from mindlang.proofs.interval import Boxes, Singles, expression_bounds, is_known
 from mindlang.proofs.reach import BOXES_PER_ROUND, MAX_BOX_SKILLS, MAX_BOXES, ProvedReach, flow
 from mindlang.proofs.trying import TRIED_READINGS, readings_to_try, think_rows
 
+Claim = Literal["always", "can be broken", "not excluded"]
 COMPARISONS = ("<", "<=", ">", ">=")
 
 
@@ -35,7 +36,7 @@ class Requirement:
 
     skill: str
     promise: Promise
-    holds: Literal["always", "can be broken", "not excluded"]
+    holds: Claim
     readings: Singles | None
     weights: tuple[str, ...]
 
@@ -53,7 +54,7 @@ def prove_requirements(graph: Graph, weights: Mapping[str, Weights], found: Prov
             cells, place = _cells(graph, above, promise.when), graph.skill_numbers[skill.name]
             broken = _broken(graph, weights, cells, promise.when, place) if known else None
             is_open = broken is None and _may_break(graph, weights, found, cells, promise.when, place, above)
-            holds = "can be broken" if broken is not None else "not excluded" if is_open else "always"
+            holds: Claim = "can be broken" if broken is not None else "not excluded" if is_open else "always"
             yield Requirement(skill.name, promise, holds, broken, own)
 
 
@@ -72,7 +73,7 @@ def _cells(graph: Graph, above: list[Skill], program: Program) -> Boxes:
         lows = [np.float32(0), *(each for mark in marks for each in (mark, np.nextafter(mark, np.float32(2))))]
         highs = [*(each for mark in marks for each in (np.nextafter(mark, np.float32(-1)), mark)), np.float32(1)]
         if prod(map(len, sides.values())) * len(lows) <= MAX_BOXES:
-            sides[row] = list(zip(lows, highs, strict=True))
+            sides[row] = [(float(low), float(high)) for low, high in zip(lows, highs, strict=True)]
     cells = list(product(*sides.values()))
     made = np.array(cells, np.float32).reshape(len(cells), len(sides), 2)
     low, high = (np.repeat(bound, len(made), axis=0) for bound in whole_box(graph.width))

@@ -154,11 +154,8 @@ def proof_report(data: Data) -> RenderableType:
         parts += ["", _heading("What it was sent", data["actuators"][0]["run"]["rests_on"][0])]
         parts += [_table(("actuator", "command", "ticks without influence"), rows)]
     if claims := data.get("requirements"):
-        rows = (
-            (f"{each['skill']} {each['promise']}", REQUIRED[each["holds"]], listed(each["rests_on"], "and"))
-            for each in claims
-        )
-        parts += ["", Text("What skills require", "bold"), _table(("promise", "by those above it", "rests on"), rows)]
+        parts += ["", Text("What skills require", "bold")]
+        parts += [_table(("promise", "by those above it", "rests on"), map(_required, claims))]
     for title, lines in (("Lines and skills", _lines(data)), ("Not known", _unknown(data["unknown"]))):
         found = list(lines)
         parts += ["", Text(title, "bold"), *found] if found else []
@@ -191,6 +188,11 @@ def _leaks(found: Data) -> Iterator[str]:
     yield f"{leak['share']:.1%}"
     yield " → ".join(names if len(names) <= MAX_PATH_SKILLS else ends)
     yield f"{worst['skill']} {worst['share']:.1%}, into {some_names(worst['into'])}" if worst else ""
+
+
+def _required(found: Data) -> tuple[str, str, str]:
+    """A promise, whether those above its skill can break it, and what that rests on."""
+    return f"{found['skill']} {found['promise']}", REQUIRED[found["holds"]], listed(found["rests_on"], "and")
 
 
 def _sent(found: Data) -> Iterator[str]:

@@ -71,7 +71,7 @@ def alike(
     return model.Skill(name, other.function, reads, edges, False, own, other.owner, other.chooses, promises)
 
 
-def _says_more(fact: Reads | Sends) -> bool:
+def _says_more(fact: Reads | Sends | Promise) -> bool:
     """True if a line says which value it sends, when, or over what."""
     return isinstance(fact, Sends) and bool(
         fact.at or fact.gate or (isinstance(fact, Influences) and (fact.cuts or fact.over))

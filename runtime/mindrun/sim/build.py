@@ -43,7 +43,7 @@ def build(
     presences = task_rows.presence_rows(task, programs)
     used, aside = used_sensors(graph, reached, task)
     exact = promised_sensors(graph, reached, used + aside)
-    sensors, remembered = sensor_rows(graph, used, aside, exact, task, programs, parameters)
+    sensors, remembered = sensor_rows(graph, (used, aside, exact), task, programs, parameters)
     driven, delays = actuator_rows(graph, parameters)
     measures, changes = task_rows.measure_rows(task, parameters)
     events, patches, arrivals = task_rows.event_rows(task)
@@ -75,27 +75,19 @@ def genome_length(graph: Graph, learners: Sequence[str]) -> int:
 
 
 def sensor_rows(
-    graph: Graph,
-    used: list[Sensor],
-    aside: list[Sensor],
-    exact: list[Sensor],
-    task: Task,
-    programs: Programs,
-    parameters: Parameters,
+    graph: Graph, measured: Sequence[list[Sensor]], task: Task, programs: Programs, parameters: Parameters
 ) -> tuple[dict[str, NDArray[Any]], dict[str, int]]:
-    """The tables of the sensors that are used, their rays and numbers, and how many numbers are remembered of what.
+    """The tables of the sensors that are used, aside or exact, and how many numbers are remembered of what.
 
-    What is measured `aside` draws its noise from a generator of its own: a reward changes nothing in the world. What is
-    measured for promises alone is `exact`, and draws nothing: so a promise changes no reward, either.
+    What is aside draws its noise from a generator of its own, what is exact has none: neither changes anything else.
     """
-    things, boxes, scene = rows_by_name(task), boxes_by_name(task), scene_of(graph)
+    (used, aside, exact), scene, things, boxes = measured, scene_of(graph), rows_by_name(task), boxes_by_name(task)
     rows, before, rough, rings, orders = list[Row](), 0, 0, 0, [s.name for s in graph.sensors if s.kind.is_order]
     rays, ray_row, passes, numbers = list[float](), list[int](), list[tuple[int, int]](), list[float]()
     for sensor in used + aside + exact:
-        kind, is_rough = sensor.kind, isinstance(sensor.kind, Physical) and sensor not in exact
+        kind, roughness = sensor.kind, {} if sensor in exact else _roughness(sensor, parameters)
         about, solid = things.get(kind.thing, NOWHERE), boxes.get(kind.thing, NOWHERE)
         code, length = programs.add(placed(kind.formula, scene.starts))
-        roughness = _roughness(sensor, parameters) if is_rough else {}
         rows.append({
             "lane": sensor_unit(kind).place, "start": sensor.start, "width": sensor.width,
             "thing": about.start, "things": len(about), "box": solid.start, "boxes": len(solid),
@@ -109,7 +101,7 @@ def sensor_rows(
         passes += [(about.start, about.stop)] * len(kind.rays)
         numbers += kind.numbers
         before += sensor.width * kind.remembered
-        if is_rough:
+        if roughness:
             rough += sensor.width
             rings += sensor.width * int(roughness["delay"])
     turn = np.array(rays, np.float64)
