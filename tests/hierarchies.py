@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from hypothesis import strategies as st
-from mindrun.graph.graph import Actuator, Edge, Gate, Graph, Memory, Program, Sensor, Skill
+from mindrun.graph.graph import Actuator, Edge, Gate, Graph, Memory, Program, Promise, Sensor, Skill
 from mindrun.graph.weights import genes
 from mindrun.kinds.actuators.actuator import Gripper, Servo, Wheel
 from mindrun.kinds.bodies.body import Disc
@@ -16,6 +16,7 @@ from mindrun.kinds.functions.procedure import Procedure
 from mindrun.kinds.memory import Cell
 from mindrun.kinds.registry import arguments, kinds
 from mindrun.kinds.sensors.battery import Battery
+from mindrun.kinds.sensors.broken import Broken
 from mindrun.kinds.sensors.bumper import Bumper
 from mindrun.kinds.sensors.claw import Contact, Held
 from mindrun.kinds.sensors.compass import Compass
@@ -94,7 +95,7 @@ ROUGH = st.fixed_dictionaries(
     },
 )
 VIRTUAL = st.sampled_from(
-    ["sine", "clock", "derivative", "computed", "latch", "average", "reading", "turned", "mirrored"]
+    ["sine", "clock", "derivative", "computed", "latch", "average", "reading", "turned", "mirrored", "broken"]
 )
 ACTUATORS = [Wheel("left", 0.5), Wheel("right", 0.5, delay=2), Gripper(0.0), Servo(0.3)]
 CALLED = Procedure("")
@@ -132,7 +133,14 @@ def random_graph(draw: st.DrawFn, fewest_hidden: int = 0, alike: bool = True) ->
             targets = [("skill", i) for i in range(number + 1, count)]
             targets += [("actuator", i) for i in range(len(actuators))] + [("memory", i) for i in range(len(memories))]
             skills[number] = draw(_alike(f"S{number}", draw(st.sampled_from(owners)), width, targets))
+    sensors = tuple(_about(each, skills) for each in sensors)
     return Graph(1 / 60, Disc(), "S0", sensors, memories, actuators, tuple(skills), (), ())
+
+
+def _about(sensor: Sensor, skills: list[Skill]) -> Sensor:
+    """A sensor that is about a skill that is there, if it is about any."""
+    is_there = not isinstance(sensor.kind, Broken) or sensor.kind.broken in {skill.name for skill in skills}
+    return sensor if is_there else replace(sensor, kind=replace(sensor.kind, broken="S0"))
 
 
 @st.composite
@@ -278,6 +286,10 @@ def virtual_kinds(
         terms = (("reading", name), ("number", more))
         return 1, Computed((*(terms[::-1] if more > 0 else terms), ("-" if more == 0.1 else "+", 0)))
     sides = programs(tuple(range(len(single))))
+    if kind == "broken":
+        program = draw(conditions(sides))
+        formula = tuple((word, single[int(x)] if word == "reading" else x) for word, x in program)
+        return 1, Broken(draw(st.sampled_from(["S0", "S1"])), formula)
     numbered = draw(sides)
     if draw(st.integers(0, 2)) == 0:
         numbered = (*numbered, *draw(conditions(sides)), ("when", 0), *draw(sides), ("otherwise", 0))
@@ -322,7 +334,16 @@ def _skills(draw: st.DrawFn, name: str, width: int, targets: list[tuple[str, int
         edges.append(replace(edge, gate=gate, cuts=cuts, over=tuple(sorted(over))))
     called = Procedure(f"own.send{outputs}") if function is CALLED else function
     chooses = any(edge.to == "skill" for edge in edges) and draw(st.integers(0, 3)) == 0
-    return Skill(name, called, inputs, tuple(edges), frozen=draw(st.booleans()), chooses=chooses)
+    promises = draw(st.lists(_promises(range(width)), max_size=3)) if draw(st.integers(0, 3)) == 0 else ()
+    frozen = draw(st.booleans())
+    return Skill(name, called, inputs, tuple(edges), frozen=frozen, chooses=chooses, promises=tuple(promises))
+
+
+@st.composite
+def _promises(draw: st.DrawFn, readings: range) -> Promise:
+    """Something that a skill promises of any readings."""
+    word = draw(st.sampled_from(["requires", "maintains", "achieves"]))
+    return Promise(word, f"{word} something", draw(conditions(programs(tuple(readings)))))
 
 
 @st.composite

@@ -5,6 +5,7 @@ import operator
 
 import numpy as np
 from mindrun.kinds.functions.procedure import Procedure
+from mindrun.kinds.sensors.broken import Broken
 from mindrun.kinds.sensors.compass import Compass
 from mindrun.kinds.sensors.computed import Computed
 from mindrun.kinds.sensors.derived import Average, Derivative, Mirrored, Reading, Turned
@@ -50,7 +51,7 @@ class Plain:
         """Set the readings of memories and virtual sensors."""
         for memory, cell in zip(self.graph.memories, self.cells, strict=True):
             self.readings[memory.start] = cell
-        done = {s.name for s in self.graph.sensors if not (s.kind.sources or isinstance(s.kind, Computed))}
+        done = {s.name for s in self.graph.sensors if not (s.kind.sources or isinstance(s.kind, Computed | Broken))}
         done |= {memory.name for memory in self.graph.memories}
         waiting = [s for s in self.graph.sensors if s.name not in done]
         for sensor in self.graph.sensors:
@@ -76,6 +77,11 @@ class Plain:
             if math.isfinite(value) and not 0 <= value <= 1 and is_turned(kind.at, parts):
                 value = value - np.floor(value)
             return clamp(value) if math.isfinite(value) else f(np.nan)
+        if isinstance(kind, Broken):
+            number = [skill.name for skill in self.graph.skills].index(kind.broken)
+            program = [(word, parts[x].start if word == "reading" else x) for word, x in kind.maintains]
+            holds = postfix(program, self.readings)
+            return f(0 if self.t == 0 or not self.influence[number] > 0 or holds > 0 else 1 if holds == 0 else np.nan)
         source = parts[kind.of]
         match kind:
             case Derivative():

@@ -20,6 +20,7 @@ from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.run.chosen_task import SetupError
 from mindlang.run.edge_flow import EdgeFlows, Singles, Sink, edge_flows, sink_named
 from mindlang.run.outcome import events, rewards_data, run_names
+from mindlang.run.promises import promises_of
 from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.recording import run_of, running_bundle
 
@@ -146,6 +147,8 @@ def _shares(attributed: AttributedRun, target: Sink, rows: range, paths: int) ->
         "silent": [graph.skills[index].name for index in found.silent],
     }
     del data["target"]
+    if target[0] == "skill" and (promises := promises_of(data["of"], attributed.flows, rows)):
+        data["promises"] = promises
     return data | (_acted(attributed, target[1], rows) if target[0] == "actuator" else {})
 
 

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from mindrun.graph.draws import drawn_in_words
+from mindrun.terminal.tick_count import ticks as in_words
 from rich.console import Group, RenderableType
 from rich.text import Text
 
@@ -116,6 +117,13 @@ def _notes(found: dict[str, Any]) -> Iterator[str]:
         more = len(silent) - MAX_NAMED_SKILLS
         names = silent if more <= 1 else [*silent[:MAX_NAMED_SKILLS], f"{more:,} more"]
         yield f"sent it nothing: {listed(names, 'and')}"
+    for each in found.get("promises", ()):
+        by = {"it": each["by_skill"], "those above it": each["by_influence"]}
+        judged = in_words(each["held"] + sum(by.values()))
+        broken = " and ".join(f"by {who} in {many:,}" for who, many in by.items() if many)
+        where = f", first in tick {each['first_broken']:,}" if broken else ""
+        told = f"broken {broken} of {judged}{where}" if broken else f"held in {judged}"
+        yield f"it {each['promise']}\n  {told}"
     if found["kind"] == "actuator" and abs(found["acted"] - found["command"]) > GAIN_NOTED:
         if "recording" in found:
             why = f": the robot was stopped{_often(found, 'stopped')}" if found["stopped"] else ""

@@ -1,9 +1,8 @@
 """Finds where breakpoints stop a run or a robot's recording, in its rows, which may come in parts of any size."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
-from operator import neg
 from typing import Any
 
 import numpy as np
@@ -14,8 +13,7 @@ from mindrun.graph.draws import drawn_numbers
 from mindrun.graph.graph import Graph
 from mindrun.graph.recording_header import About
 from mindrun.kinds.events.event import EventKind
-from mindrun.numbers.arrays import OPERATORS
-from mindrun.numbers.expression import Program, fold
+from mindrun.numbers.arrays import Leaf, evaluate_rows
 from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, RobotEvent, Transmission, robot_events
@@ -25,7 +23,6 @@ from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.recording import recorded_task
 from mindlang.run.setup import RunSetup
 
-Leaf = Callable[[str, Any], Any]
 Measured = Mapping[Transmission, NDArray[np.float64]]
 
 
@@ -128,14 +125,6 @@ def watcher(breakpoints: Sequence[Breakpoint], setup: RunSetup) -> Watcher:
     graph = setup.ready.policy.graph
     sources = procedure_sources(graph, setup.folder, setup.master)
     return Watcher(breakpoints, setup.task.events, graph, hierarchy(setup.ready.policy, sources, setup.master))
-
-
-def evaluate_rows(program: Program, leaf: Leaf, rows: int) -> NDArray[np.float64]:
-    """The value of an expression in each of so many rows, `leaf` giving those of its readings [rows]."""
-
-    with np.errstate(all="ignore"):
-        value = fold(program, leaf, neg, lambda operator, left, right: OPERATORS[operator](left, right))
-        return np.broadcast_to(np.float64(value), (rows,))
 
 
 def _leaf(rows: Rows, measures: Sequence[NDArray[np.float64]]) -> Leaf:

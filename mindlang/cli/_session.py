@@ -7,7 +7,7 @@ from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from mindrun.errors import MindError, ProcedureError
 from mindrun.graph.run_scores import Scores
@@ -28,6 +28,7 @@ from mindlang.compiler.compile import Compiled
 from mindlang.executors.jobs import JobScorer
 from mindlang.limits import refuse_too_large, refuse_too_many
 from mindlang.run.chosen_task import SetupError
+from mindlang.run.promises import promises_in
 from mindlang.run.recorded_run import RunResult, run_result
 from mindlang.run.setup import NO_GENOME, RunSetup, run_timed, set_up
 
@@ -128,6 +129,11 @@ class RunSession:
         made = run_result(setup, rollout, seed)
         self.say(*(f"note: {note}" for note in rollout.notes))
         return made
+
+    @terminal.procedures_talk()
+    def promises(self, prepared: Prepared, seeds: Sequence[int]) -> list[dict[str, Any]]:
+        """What became of the promises of a mind in the first runs of these seeds."""
+        return promises_in(prepared.rollout, prepared.setup.master, seeds)
 
     @contextmanager
     def counting(self, what: str, runs: int) -> Iterator[Ran]:

@@ -141,6 +141,8 @@ class Bench:
         scores, data = self._score(prepared, seeds)
         self.session.say(*(f"note: {note}" for note in over_at_once(task, scores)))
         found = {"task": task.name, "master": setup.master, "seed": self.seed, **self._by(), **data}
+        if promises := self.session.promises(prepared, seeds):
+            found |= {"promises": promises}
         if self.table:
             self._write(self.table, runs_table(task, scores, seeds), f"{len(seeds):,} runs")
         print_result(self.as_json, found, lambda: bench_summary(found))

@@ -83,12 +83,14 @@ def _run(file: str, chosen: options.RunChoice, breaks: Path | None, files: RunFi
 
     from mindlang.breakpoints.watch import watcher
     from mindlang.run.outcome import data_so_far, run_data, run_names
+    from mindlang.run.promises import PromiseCounts
     from mindlang.run.summary import run_summary
 
     seed = secrets.randbits(31) if chosen.seed is None else chosen.seed
     session, compiled, run, stop = files.session, terminal.load_compiled(file), None, None
     plain, (setup, rollout), breakpoints = session.prepare_stopping(file, compiled, chosen, breaks)
-    if breaks or any(getattr(files, name) for name in WRITTEN):
+    counts = PromiseCounts(setup.ready.policy.graph, setup.master)
+    if breaks or counts.watcher.promises or any(getattr(files, name) for name in WRITTEN):
         made = session.record(setup, rollout, seed)
         run, came = made.run, made.found
     else:
@@ -100,6 +102,9 @@ def _run(file: str, chosen: options.RunChoice, breaks: Path | None, files: RunFi
             run = run.until(stop["tick"])
             came = data_so_far(run.task, run.lines[-1], run.events[-1], run.ticks, "a breakpoint")
         came = came | {"stopped": stop}
+    if run and counts.watcher.promises:
+        counts.add([run])
+        came = came | {"promises": counts.data()}
     found = run_names(setup.task, setup.master, seed) | {"notes": [*setup.ready.notes, *rollout.notes], **came}
     where = [stop_summary(stop)] if breaks else []
     terminal.print_result(as_json, found, lambda: Group(*where, run_summary(found)))

@@ -148,10 +148,10 @@ def _parts(header: syntax.Header, of: Any) -> tuple[Any, dict[str, Sequence[Any]
         case Skill(like=like) if like:
             lines = (fact for fact in of.declaration.facts if isinstance(fact, syntax.Reads | syntax.Sends))
             instead = [(syntax.verb_of(f), f.name.text, f.stands_for and f.stands_for.text) for f in lines]
-            return like, {"reads drives influences": instead}
+            return like, {"reads drives influences": instead, **_promised(of)}
         case Skill():
             how = {"chooses": [True] * of.chooses, "stays": [True] * of.frozen}
-            return of.function, {"reads": of.reads, "drives influences": of.edges, **how}
+            return of.function, {"reads": of.reads, "drives influences": of.edges, **how, **_promised(of)}
         case Task():
             starts = [of.start] * bool(syntax.of_form(of.facts, syntax.Starts))
             judged = {"lasts": [of.ticks], "ends succeeds": of.ends, "rewards": of.rewards, "counts": of.counts}
@@ -161,6 +161,14 @@ def _parts(header: syntax.Header, of: Any) -> tuple[Any, dict[str, Sequence[Any]
             return of.kind, {}
     phrase = header.phrase
     return phrase and make_kind("curriculum", phrase, Scope(Names({}), None), Findings()), {"teaches": of or []}
+
+
+def _promised(skill: Skill) -> dict[str, Sequence[Any]]:
+    """Each of what a skill promises, by the verb of its line."""
+    found: dict[str, list[Any]] = {}
+    for each in skill.promises:
+        found.setdefault(syntax.verb_of(each.fact), []).append(each)
+    return {**found}
 
 
 def _header(header: syntax.Header, names: Names) -> str:

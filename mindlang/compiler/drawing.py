@@ -42,6 +42,8 @@ def tree(mind: Mind) -> "Tree":
             branch.add(Text(f"reads {', '.join(skill.reads)}"))
         for edge in (edge for edge in skill.edges if edge.to != "skill"):
             branch.add(Text(f"drives {edge.target}{text_after_name(edge.fact)}"))
+        for promise in skill.promises:
+            branch.add(Text(promise.text))
         below = [(branch, edge.target, text_after_name(edge.fact)) for edge in skill.edges if edge.to == "skill"]
         waiting += reversed(below)
     return root

@@ -12,7 +12,7 @@ from mindlang.compiler.families import said
 from mindlang.compiler.format import spaced
 from mindlang.compiler.hierarchy import topological_order
 from mindlang.compiler.references import DRIVABLE_NOUNS
-from mindlang.compiler.syntax import Expression, When
+from mindlang.compiler.syntax import Expression, When, verb_of
 
 T = TypeVar("T")
 
@@ -66,7 +66,15 @@ def _skills(mind: model.Mind, readings: Mapping[str, tuple[int, int]]) -> Iterat
     for skill in map(skills.__getitem__, order):
         places = [start + i for start, width in (readings[name] for name in skill.reads) for i in range(width)]
         edges = tuple(_edges(skill, numbers, Places(readings)))
-        yield graph.Skill(skill.name, skill.function, tuple(places), edges, skill.frozen, skill.like, skill.chooses)
+        promises = tuple(_promise(each, Places(readings)) for each in skill.promises)
+        yield graph.Skill(
+            skill.name, skill.function, tuple(places), edges, skill.frozen, skill.like, skill.chooses, promises
+        )
+
+
+def _promise(promise: model.Promise, places: Places) -> graph.Promise:
+    word: Any = verb_of(promise.fact)
+    return graph.Promise(word, promise.text, lower_condition(promise.when, places))
 
 
 def _edges(skill: model.Skill, numbers: Mapping[str, Mapping[str, int]], places: Places) -> Iterator[graph.Edge]:

@@ -21,6 +21,8 @@ from msgspec import Struct
 from networkx import DiGraph
 
 from mindlang.compiler import syntax
+from mindlang.compiler.families import said
+from mindlang.compiler.format import spaced
 from mindlang.compiler.names import Names
 from mindlang.compiler.source import Span
 
@@ -72,8 +74,22 @@ class Edge(Struct, frozen=True):
         return tuple(value for value in (self.at, otherwise) if value)
 
 
+class Promise(Struct, frozen=True):
+    """A condition that a skill promises, and the line that says it."""
+
+    when: syntax.Promise
+    fact: syntax.Promise
+
+    @property
+    def text(self) -> str:
+        """Its line as it is written, but for spaces."""
+        return spaced(said(self.fact))
+
+
 class Skill(Struct, frozen=True):
     """A skill; `reads` are names of sensors and memories; one that is `frozen` is not taught, one may `chooses` one.
+
+    What it `promises` is of any readings, and changes nothing that is computed.
 
     One that is `like` another has that one's function and weights; what it reads and sends stands in that one's order,
     and the lines of its edges are that one's.
@@ -87,6 +103,7 @@ class Skill(Struct, frozen=True):
     declaration: syntax.Declaration
     like: str = ""
     chooses: bool = False
+    promises: tuple[Promise, ...] = ()
 
     @property
     def span(self) -> Span:

@@ -93,6 +93,8 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
             yield from _if_any(stands_for, *READABLE_NOUNS)
         case syntax.Sends():
             yield from _in_output(line)
+        case syntax.Promise():
+            yield from _in_expressions(*syntax.expressions_in(line))
         case syntax.Contains(name, phrase):
             yield name, ("thing",)
             yield from _in_phrase("content", phrase)
@@ -103,11 +105,9 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
             yield of, (*VARIED_NOUNS, "thing")
         case syntax.Fails(name):
             yield name, ("actuator", "sensor")
-        case syntax.Outcome(_, event, when):
+        case syntax.Outcome(event=event) | syntax.Counts(event):
             yield from _in_phrase("event", event)
-            yield from _in_expressions(*syntax.expressions_in(when))
-        case syntax.Counts(event):
-            yield from _in_phrase("event", event)
+            yield from _in_expressions(*syntax.expressions_in(line))
         case syntax.Rewards(amount, on, each, when):
             own = each.name.text if each else ""
             yield from _in_expressions(amount, *syntax.expressions_in(when), own=own)
@@ -157,6 +157,8 @@ def _in_arguments(written: Iterable[syntax.Argument], classes: Iterable[type[Any
                 yield value, ("thing",)
             case Name(), Noun(noun="sensor"):
                 yield value, READABLE_NOUNS
+            case Name(), Noun(noun="skill"):
+                yield value, ("skill",)
             case Name(), Quantity():
                 yield value, ("number",)
             case Name(), None if key == "from":

@@ -13,8 +13,8 @@ PARTS = ("sensor", "actuator", "memory")
 WHOLES = ("body", "skill", "curriculum", "scene")
 NOUNS = (*PARTS, *WHOLES, "task")
 VERBS = (
-    "reads", "drives", "influences", "chooses", "stays", "contains", "starts", "draws", "varies", "fails", "lasts",
-    "ends", "succeeds", "rewards", "counts", "teaches",
+    "reads", "drives", "influences", "chooses", "stays", "requires", "maintains", "achieves", "contains", "starts",
+    "draws", "varies", "fails", "lasts", "ends", "succeeds", "rewards", "counts", "teaches",
 )  # fmt: skip
 SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
 
@@ -228,6 +228,22 @@ class Stays(Struct, frozen=True):
     span: Span
 
 
+class Promise(When, frozen=True):
+    """A condition that a skill promises: that it requires, maintains or achieves."""
+
+
+class Requires(Promise, frozen=True):
+    """`requires CONDITION`"""
+
+
+class Maintains(Promise, frozen=True):
+    """`maintains CONDITION`"""
+
+
+class Achieves(Promise, frozen=True):
+    """`achieves CONDITION`"""
+
+
 class Contains(Struct, frozen=True):
     """`contains NAME is PHRASE [when CONDITION]`"""
 
@@ -343,8 +359,8 @@ class Teaches(Struct, frozen=True):
 
 
 Fact = (
-    Reads | Drives | Influences | Chooses | Stays | Contains | Starts | Draws | Varies | Fails | Lasts | Ends | Succeeds
-    | Rewards | Counts | Teaches
+    Reads | Drives | Influences | Chooses | Stays | Promise | Contains | Starts | Draws | Varies | Fails | Lasts | Ends
+    | Succeeds | Rewards | Counts | Teaches
 )  # fmt: skip
 
 

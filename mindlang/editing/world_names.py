@@ -21,6 +21,7 @@ from mindrun.graph.graph import (
     Graph,
     Lesson,
     Memory,
+    Promise,
     Reward,
     Sensor,
     Skill,
@@ -29,7 +30,7 @@ from mindrun.graph.graph import (
     Variation,
 )
 from mindrun.kinds.registry import arguments, names
-from mindrun.numbers.quantity import EXPRESSION, SENSOR, THING, Quantity, Reference
+from mindrun.numbers.quantity import EXPRESSION, SENSOR, SKILL, THING, Quantity, Reference
 
 from mindlang.compiler.names import Names
 from mindlang.compiler.parse.shape import parse_line
@@ -62,6 +63,7 @@ NAMED: Mapping[type, Mapping[str, str]] = {
 OF_KINDS = "sensor", "memory", "actuator", "thing"  # the nouns of facts that are kinds
 
 Role = tuple[str | int, ...]  # where a text stands: the noun of its fact, and the keys and numbers that lead to it
+WORLDS = "task", "scene"
 _MARK = re.compile("\0([0-9]+)\0")  # no name has such a character
 _TITLE = re.compile(r"([a-z]\w*\.)?[A-Z]")
 _AROUND_SENTENCE: Mapping[Role, Callable[[str], tuple[str, str]]] = {
@@ -151,8 +153,11 @@ class Renaming:
 
     @cached_property
     def _declared(self) -> Names:
-        """All names of the minds and those that are renamed, so that a name stands for the noun that it does there."""
-        table: dict[str, dict[str, Any]] = {noun: {**named} for noun, named in self.names.items()}
+        """All names of the minds and those that are renamed, so that a name stands for the noun that it does there.
+
+        No fact of a world names a task.
+        """
+        table: dict[str, dict[str, Any]] = {noun: {**its} for noun, its in self.names.items() if noun not in WORLDS}
         for mind in self.minds:
             parts: list[Any] = [*mind.sensors, *mind.memories, *mind.actuators, *mind.skills]
             parts += [draw for task in mind.tasks for draw in task.draws]
@@ -213,7 +218,7 @@ def renamed(node: T, name: Name) -> T:
 
 def _value(node: Any, field: Field[Any], name: Name) -> Any:
     value = getattr(node, field.name)
-    if isinstance(node, Reward | End) and field.name == "text":
+    if isinstance(node, Reward | End | Promise) and field.name == "text":
         return ""
     if isinstance(node, Variation) and field.name == "of":
         return name(value, node.noun)
@@ -229,6 +234,8 @@ def _argument(value: Any, meaning: Quantity | Reference | None, name: Name) -> A
         return name(value, "thing") if isinstance(value, str) else value
     if meaning == SENSOR:
         return name(value, *READABLE_NOUNS)
+    if meaning == SKILL:
+        return name(value, "skill")
     if meaning == EXPRESSION:
         new = ((word, name(x, *READABLE_NOUNS) if isinstance(x, str) else x) for word, x in value)
         return type(value)(map(type(value), new))

@@ -15,7 +15,7 @@ from mindlang.compiler.beginning import Beginning, task_beginning
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label
 from mindlang.compiler.hierarchy import reverse_topological_order, topological_order, with_descendants
-from mindlang.compiler.model import Edge, End, Mind, Part, Reward, Skill, Task, source_graph
+from mindlang.compiler.model import Edge, End, Mind, Part, Promise, Reward, Skill, Task, source_graph
 from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Declaration, Fact, Setting, When, expressions_in
@@ -69,7 +69,7 @@ class AnalysedWorld:
         return self.reading(of.each) if isinstance(of, Reward) and of.each else UNIT_INTERVAL
 
     def range_in(self, of: "Conditional") -> Range:
-        """The ranges of the expressions of an edge, an end or a reward."""
+        """The ranges of the expressions of a sensor, an edge, a promise, an end or a reward."""
         return lambda expression: interval(expression, self.reading, self.each(of))
 
     def why_never_paid(self, reward: Reward) -> tuple[Span, str, str] | None:
@@ -90,7 +90,7 @@ class AnalysedWorld:
         return not all(battery.start and not battery.drain for battery in batteries)
 
 
-Conditional = Edge | Reward | End | Part[SensorKind]
+Conditional = Edge | Reward | End | Promise | Part[SensorKind]
 Condition = tuple[When, Conditional, AnalysedWorld]  # what it is a condition of, and the world in which it is
 
 
@@ -213,10 +213,12 @@ class Study:
 
     @property
     def conditions(self) -> Iterator[Condition]:
-        """Every condition of what sensors read and skills send, of rewards and of ends."""
+        """Every condition of what sensors read, skills send and promise, of rewards and of ends."""
         for sent in self.computed:
             if sent.gate:
                 yield sent.gate.when, sent, self.any_world
+        for promise in (promise for skill in self.mind.skills for promise in skill.promises):
+            yield promise.when, promise, self.any_world
         for task in self.mind.tasks:
             judging: tuple[Reward | End, ...] = (*task.rewards, *task.ends)
             for each in judging:

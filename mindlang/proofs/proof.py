@@ -14,6 +14,7 @@ from mindlang.compiler.hierarchy import with_ancestors
 from mindlang.proofs.branch_and_bound import EdgeRange
 from mindlang.proofs.interval import is_known
 from mindlang.proofs.paths import Leak, Paths, influence_edges, leaks, paths
+from mindlang.proofs.promises import Requirement, prove_requirements
 from mindlang.proofs.reach import MIN_INFLUENCE, Driven, ProvedReach, prove_reach, tighten
 from mindlang.proofs.trying import Tried, try_readings
 
@@ -82,6 +83,7 @@ class Proof:
     actuators: tuple[ActuatorClaims, ...]
     edges: tuple[EdgeClaim, ...]
     dead: Mapping[str, tuple[str, ...]]  # the skills on whose weights it rests
+    requirements: tuple[Requirement, ...]
 
 
 class _Rests:
@@ -149,6 +151,7 @@ def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
         tuple(found[number][2][place] for place, number in enumerate(numbers)),
         tuple(_edges(graph, below, bounds, rests)),
         {name: rests.of_dead(name) for name, bound in bounds.influence.items() if bound.high <= 0},
+        tuple(prove_requirements(graph, weights, bounds)),
     )
 
 

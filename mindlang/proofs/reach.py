@@ -194,7 +194,7 @@ def _least(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, act
     while len(waiting.low):
         now = select_boxes(waiting, slice(BOXES_PER_ROUND))
         waiting = select_boxes(waiting, slice(BOXES_PER_ROUND, None))
-        low = _flow(graph, weights, found, now).total_low[:, actuator]
+        low = flow(graph, weights, found, now).total_low[:, actuator]
         is_open = low <= 0
         made += 2 * int(is_open.sum())
         if made > most or not sway.any():
@@ -208,7 +208,7 @@ def _least(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, act
     return least
 
 
-def _flow(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, boxes: Boxes) -> InfluenceBounds:
+def flow(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, boxes: Boxes) -> InfluenceBounds:
     """Influence in each box, from what every skill sends there, or what it sends anywhere, whichever says more."""
 
     def sends(skill: Skill) -> SentBounds:

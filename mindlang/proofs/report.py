@@ -14,7 +14,9 @@ from rich.table import Table
 from rich.text import Text
 
 from mindlang.compiler.diagnostic import listed
+from mindlang.proofs.interval import Singles
 from mindlang.proofs.paths import MAX_COUNTED_PATHS, Leak
+from mindlang.proofs.promises import Requirement
 from mindlang.proofs.proof import DECLARATION, ActuatorClaims, EdgeClaim, Proof
 from mindlang.proofs.trying import Tried
 
@@ -25,6 +27,11 @@ Data = dict[str, Any]
 Hashes = Mapping[str, str]  # the SHA-256 of each skill's weights
 MAX_NAMED_SKILLS = 3  # skills in a list, above which it says how many
 MAX_PATH_SKILLS = 6  # skills of a path
+REQUIRED = {
+    "always": "never broken",
+    "can be broken": "can be broken, as --json shows",
+    "not excluded": "not proved",
+}
 MEANINGS = {
     "can be": "keeps still: there are readings for which it has influence, and passes none on",
     "not excluded": "not ruled out: not proved to be impossible, and seen for no readings that were tried",
@@ -38,6 +45,7 @@ def _rests_on(skills: Iterable[str], hashes: Hashes) -> list[str]:
 
 def proof_data(proof: Proof, hashes: Hashes, run: "Recorded | None") -> Data:
     """A whole proof as plain data."""
+    them = proof.requirements
     return {
         "master": proof.graph.master,
         "assumes": "every reading is a number from 0 to 1",
@@ -47,6 +55,7 @@ def proof_data(proof: Proof, hashes: Hashes, run: "Recorded | None") -> Data:
         "not_below_master": list(proof.outside),
         "actuators": [_actuator(found, place, proof, hashes, run) for place, found in enumerate(proof.actuators)],
         "edges": [_edge(edge, hashes) for edge in proof.edges],
+        **({"requirements": [_requirement(each, proof.graph, hashes) for each in them]} if them else {}),
         "dead_skills": [{"skill": name, "rests_on": _rests_on(why, hashes)} for name, why in proof.dead.items()],
         "run": None if run is None else {"task": run.task, "seed": run.seed, "ticks": run.ticks, "faults": run.faults},
     }
@@ -80,6 +89,13 @@ def _actuator(found: ActuatorClaims, place: int, proof: Proof, hashes: Hashes, r
     return data
 
 
+def _requirement(found: Requirement, graph: Graph, hashes: Hashes) -> Data:
+    example = None if found.readings is None else readings_by_name(graph, found.readings)
+    rests = _rests_on((name for name in found.weights if name in hashes), hashes)
+    said = {"skill": found.skill, "promise": found.promise.text, "holds": found.holds}
+    return {**said, "example": example, "rests_on": rests}
+
+
 def _leak(leak: Leak) -> Data:
     return {
         "share": leak.share,
@@ -93,9 +109,14 @@ def _example(graph: Graph, tried: Tried) -> Data | None:
     """Readings for which nothing influences an actuator, and which skills keep still then."""
     if tried.readings is None:
         return None
-    values = tried.readings.tolist()
-    readings = {sensor.name: values[sensor.start : sensor.start + sensor.width] for sensor in graph.sensors}
-    return {"still": list(tried.still), "readings": readings | {m.name: [values[m.start]] for m in graph.memories}}
+    return {"still": list(tried.still), "readings": readings_by_name(graph, tried.readings)}
+
+
+def readings_by_name(graph: Graph, readings: Singles) -> dict[str, list[float]]:
+    """Readings [graph.width] by sensor and memory."""
+    values = readings.tolist()
+    found = {sensor.name: values[sensor.start : sensor.start + sensor.width] for sensor in graph.sensors}
+    return found | {memory.name: [values[memory.start]] for memory in graph.memories}
 
 
 def _edge(edge: EdgeClaim, hashes: Hashes) -> Data:
@@ -132,6 +153,9 @@ def proof_report(data: Data) -> RenderableType:
         rows = (_shown(found, data["run"]["ticks"]) for found in data["actuators"])
         parts += ["", _heading("What it was sent", data["actuators"][0]["run"]["rests_on"][0])]
         parts += [_table(("actuator", "command", "ticks without influence"), rows)]
+    if claims := data.get("requirements"):
+        parts += ["", Text("What skills require", "bold")]
+        parts += [_table(("promise", "by those above it", "rests on"), map(_required, claims))]
     for title, lines in (("Lines and skills", _lines(data)), ("Not known", _unknown(data["unknown"]))):
         found = list(lines)
         parts += ["", Text(title, "bold"), *found] if found else []
@@ -164,6 +188,11 @@ def _leaks(found: Data) -> Iterator[str]:
     yield f"{leak['share']:.1%}"
     yield " → ".join(names if len(names) <= MAX_PATH_SKILLS else ends)
     yield f"{worst['skill']} {worst['share']:.1%}, into {some_names(worst['into'])}" if worst else ""
+
+
+def _required(found: Data) -> tuple[str, str, str]:
+    """A promise, whether those above its skill can break it, and what that rests on."""
+    return f"{found['skill']} {found['promise']}", REQUIRED[found["holds"]], listed(found["rests_on"], "and")
 
 
 def _sent(found: Data) -> Iterator[str]:

@@ -7,7 +7,7 @@ from math import isinf
 from types import NoneType, UnionType
 from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 
-from mindrun.graph.wiring import ActuatorWire, SensorWire
+from mindrun.graph.wiring import ON_BROKEN, ActuatorWire, SensorWire
 from mindrun.kinds.registry import kinds
 from mindrun.numbers.quantity import NUMBER, Quantity, Reference
 
@@ -125,6 +125,7 @@ def schema() -> dict[str, Any]:
         "additionalProperties": False,
         "properties": {
             "robot": {**TEXT, "description": "A name for the robot."},
+            "on_broken": {"enum": [*ON_BROKEN.words], "description": "What happens where a skill breaks a promise."},
             "sensors": _section_schema("sensor"),
             "actuators": _section_schema("actuator"),
         },

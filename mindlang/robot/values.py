@@ -26,7 +26,7 @@ def value(option: DriverOption, node: Node, findings: Findings) -> Any:
         case "numbers", Quantity() as quantity:
             return _numbers(node, quantity, option.count, findings)
         case "word", Reference() as reference:
-            return _word(node, reference, findings)
+            return word(node, reference, findings)
         case "flag", _:
             if isinstance(node, Scalar) and node.plain and node.text in ("true", "false"):
                 return node.text == "true"
@@ -85,7 +85,7 @@ def _words(node: Node, reference: Reference, count: int | None, findings: Findin
         _refuse(node, "not-a-list", "A list stands here.", hint, findings)
         return None
     if reference.words:
-        return _all([_word(item, reference, findings) for item in node.items])
+        return _all([word(item, reference, findings) for item in node.items])
     return _all([text(item, findings) for item in node.items])
 
 
@@ -94,7 +94,7 @@ def _all(found: list[Any]) -> tuple[Any, ...] | None:
     return None if None in found else tuple(found)
 
 
-def _word(node: Node, reference: Reference, findings: Findings) -> str | None:
+def word(node: Node, reference: Reference, findings: Findings) -> str | None:
     """One of a few words."""
     noun, words = reference.noun, reference.words
     if not isinstance(node, Scalar):

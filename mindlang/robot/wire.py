@@ -14,7 +14,8 @@ from mindrun.errors import nearest, reason
 from mindrun.files.regular_files import read_regular
 from mindrun.graph.graph import Actuator, Graph, Sensor
 from mindrun.graph.named_readings import physical
-from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring, read_by
+from mindrun.graph.skill_sets import reachable
+from mindrun.graph.wiring import ON_BROKEN, ActuatorWire, SensorWire, Wiring, read_by
 from mindrun.kinds.registry import names
 from mindrun.numbers.quantity import Quantity, fits
 from mindrun.robot.driver_support import METRES, PIN
@@ -26,7 +27,7 @@ from mindlang.robot.driver import Wired, wired
 from mindlang.robot.driver_inspection import near_value, timing_of
 from mindlang.robot.options import driver_options
 from mindlang.robot.read import Node, Scalar, Table, TableEntry, first_line, read, shortened
-from mindlang.robot.values import check_keys, is_empty, number, table, text
+from mindlang.robot.values import check_keys, is_empty, number, table, text, word
 
 MAX_WIRING_BYTES = 256 << 10
 KEYS = {
@@ -91,7 +92,7 @@ def _wiring(node: Node, graph: Graph, unit_metres: float | None, findings: Findi
     if top is None:
         return None
     said = top.entries
-    check_keys(top, top.span, "The file", KEYS, KEYS, findings)
+    check_keys(top, top.span, "The file", (*KEYS, "on_broken"), KEYS, findings)
     own = physical(graph)
     needed = {name for name in read_by(graph, graph.master) if not own[name].kind.is_order}
     moved = {actuator.name: actuator for actuator in graph.actuators}  # all of them, since each has a neutral
@@ -106,7 +107,19 @@ def _wiring(node: Node, graph: Graph, unit_metres: float | None, findings: Findi
     if entry and name and name.strip() != name:
         findings.error("not-a-text", entry.value.span, "A name has no spaces around it.", "Remove them.")
     wires = tuple(wire for _, wire in sensing if wire)
-    return Wiring(name, wires, tuple(wire for _, wire in acting if wire)) if name else None
+    reaction: Any = _reaction(said.get("on_broken"), graph, findings)
+    return Wiring(name, wires, tuple(wire for _, wire in acting if wire), reaction) if name else None
+
+
+def _reaction(entry: TableEntry | None, graph: Graph, findings: Findings) -> str:
+    """What happens where a skill breaks what it promises."""
+    if entry is None or is_empty(entry, findings):
+        return "tell"
+    if not any(skill.promises for skill in reachable(graph, graph.master)):
+        hint = "Remove this line, or say in the mind what a skill maintains: maintains battery > 5%."
+        message = f"Neither {graph.master} nor a skill below it promises anything that could be broken."
+        findings.error("nothing-promised", entry.key.span, message, hint)
+    return word(entry.value, ON_BROKEN, findings) or "tell"
 
 
 def _section(

@@ -66,7 +66,7 @@ class EdgeFlows:
     """
 
     def __init__(self, graph: Graph, mind: Hierarchy, rows: Rows, begins: Container[int] = ()) -> None:
-        self.graph, self.rows = graph, rows
+        self.graph, self.rows, self.begins = graph, rows, begins
         self.master = graph.skills[mind.master].name
         self.skills = [skill.index for skill in mind.skills]
         self.links = [

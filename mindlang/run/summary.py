@@ -14,6 +14,7 @@ from mindlang.run.outcome import TIME
 from mindlang.run.paired_difference import MAX_RUNS, PairedDifference
 from mindlang.run.worlds import figure
 
+PROMISE_COLUMNS = 46  # for a skill and what it promises
 WORLD_COLUMNS = 52  # for the name of a world beside one mind; half of them beside two
 
 
@@ -29,7 +30,7 @@ def run_summary(found: dict[str, Any]) -> RenderableType:
     )
     sums = [(score(paid), text) for text, paid in found["by_line"].items()]
     total = (Text(score(found["score"]), "bold"), "score")
-    return Group(_title(found), facts, "", aligned([*sums, total], left=(1,)))
+    return Group(_title(found), facts, "", aligned([*sums, total], left=(1,)), *_promises(found))
 
 
 def bench_summary(found: dict[str, Any]) -> RenderableType:
@@ -55,7 +56,35 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
         ("speed", f"{speed(found)} {who}, in {duration(found['seconds'])}"),
         ("faults", _faults(found)),
     )
-    return Group(_title(found), facts)
+    return Group(_title(found), facts, *_promises(found))
+
+
+def _promises(found: dict[str, Any]) -> Iterator[RenderableType]:
+    """A row for each promise: in which share of the times that it was judged it held, and how often who broke it."""
+    promises = found.get("promises", ())
+    if not promises:
+        return
+    runs = promises[0]["runs"]
+    of = "" if runs == found.get("runs", 1) else f" in the first {runs} run{'s' * (runs != 1)}"
+    head = (f"promised{of}", "held", "by it", "above it", *(["runs"] if runs > 1 else []))
+    yield ""
+    yield aligned([[Text(each, "dim") for each in head], *(_promise_row(each) for each in promises)], left=(0,))
+    for each in (each for each in promises if each.get("unfinished")):
+        many = "the run" if runs == 1 else f"{each['unfinished']:,} of {runs:,} runs"
+        yield Text(f"{many} ended while {each['skill']} was acting: not judged what it achieves", "dim")
+    if any(each["broken_runs"] for each in promises):
+        yield Text("broken by it, or above it: influenced against what it requires", "dim")
+
+
+def _promise_row(found: dict[str, Any]) -> list[str | Text]:
+    name = Text(f"{found['skill']} {found['promise']}")
+    name.truncate(PROMISE_COLUMNS, overflow="ellipsis")
+    by = [found.get(whose) for whose in ("by_skill", "by_influence")]
+    judged = found["held"] + sum(filter(None, by))
+    share = f"{found['held'] / judged:.1%}" if judged else "–"
+    held = "< 100%" if share == "100.0%" and found["held"] < judged else share
+    runs = [f"{found['broken_runs']}"] if found["runs"] > 1 else []
+    return [name, held, *("" if many is None else f"{many:,}" for many in by), *runs]
 
 
 def _title(found: dict[str, Any]) -> Text:

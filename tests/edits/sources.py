@@ -254,6 +254,8 @@ def _declarations(rng: Random) -> list[list[str]]:
     parts = [*(rng.choice(lines) for lines in choices), body]
     blocks = [[_more(rng, line.split()[0], line)] for line in parts]
     blocks += [_skill(rng, skill, functions[skill], skills[place + 1 :]) for place, skill in enumerate(skills)]
+    kept = [block[0].split()[1] for block in blocks if any(fact.startswith("maintains ") for fact in block[1:])]
+    blocks += [[f"sensor unsafe is broken {rng.choice(kept)}"]] if kept else []
     tasks = rng.sample([*SKILLS[:3], "Roam"], rng.randint(1, 2))
     blocks += [block for task in tasks for block in _in_scene(rng, _task(rng, task))]
     if rng.random() < 0.3:
@@ -337,7 +339,14 @@ def _skill(rng: Random, name: str, function: str, below: list[str]) -> list[str]
     said = [f"{edge} cuts below 5%" if edge.startswith("inf") and rng.random() < 0.2 else edge for edge in said]
     frozen = ["stays frozen"] * (rng.random() < 0.2)
     chooses = ["chooses one"] * (bool(targets) and rng.random() < 0.3)
-    return [f"skill {name} is {function}", *(f"reads {reading}" for reading in reads), *said, *chooses, *frozen]
+    said += chooses + frozen + _promises(rng)
+    return [f"skill {name} is {function}", *(f"reads {reading}" for reading in reads), *said]
+
+
+def _promises(rng: Random) -> list[str]:
+    """Some of what a skill promises, of readings that it need not read."""
+    words = [word for word in ("requires", "maintains", "achieves") if rng.random() < 0.2]
+    return [f"{word} {rng.choice(sorted(NARROW))} > {rng.choice(['0.5', '10%'])}" for word in words]
 
 
 def _like(rng: Random, owner: list[str]) -> list[str]:

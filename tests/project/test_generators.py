@@ -22,7 +22,7 @@ from tests.hierarchies import VIRTUAL, physical_kinds, virtual_kinds
 from tests.outside.drawn import environment_mind
 from tests.sim.worlds import learner_kinds, random_world, robot_kinds
 
-DRAWN, DRAWN_LISTS = 200, 40  # minds, and lists of kinds of which ten are enough
+DRAWN, DRAWN_LISTS = 400, 40  # minds, and lists of kinds of which ten are enough
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "event", "measure", "curriculum")
 OF_FILES = {"map"}  # which no text says by itself
 KNOWN = {"s0": Bearing("object"), "s1": RangeFinder(at=(-1.0, 0.0, 1.0)), "s2": Compass()}  # of what sensors are made

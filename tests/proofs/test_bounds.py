@@ -18,6 +18,7 @@ from mindrun.graph.scopes import influence_scopes, within_scope
 from mindrun.graph.weights import Weights, genes, reachable
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.numbers.arithmetic import sigmoid
+from mindrun.numbers.expression import evaluate
 
 from mindlang.compiler.compile import load
 from mindlang.lock.status import make_ready
@@ -68,6 +69,14 @@ def lies_inside(
         found = found[~np.isnan(found)]
         assert ((bound.low <= found) & (found <= bound.high)).all()
         assert name not in proof.dead or not found.any()
+    for required in proof.requirements:
+        number = names[required.skill]
+        if required.holds == "always":
+            acting = readings[thoughts.influence[:, number] > 0]
+            assert all(evaluate(required.promise.when, row) != 0 for row in acting)
+        if required.readings is not None:
+            assert thoughts_of(graph, weights, required.readings[None]).influence[0, number] > 0
+            assert evaluate(required.promise.when, required.readings) == 0
     for place, claim in enumerate(proof.actuators):
         commanded(claim, thoughts.total[:, place], thoughts.command[:, place])
 

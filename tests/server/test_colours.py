@@ -27,7 +27,7 @@ TOKENS = {
     "TEXT": "string.quoted.double",
     "ITS": FUNCTION,
     "ENVIRONMENT": "string.unquoted",
-    **dict.fromkeys(("COMPUTED", "NUMBERED", "SEVERAL", "ORDERED", "GYMNASIUM"), KIND),
+    **dict.fromkeys(("COMPUTED", "NUMBERED", "SEVERAL", "ORDERED", "BROKEN", "GYMNASIUM"), KIND),
     **dict.fromkeys(("FROM", "TO", "BY", "FACING", "AT"), KEY),
     **dict.fromkeys(("EXTREME", "AND", "OR", "TICK", "LEVEL"), WORD),
     **dict.fromkeys(("SIGN", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
@@ -115,6 +115,9 @@ lasts 100 s
 tick 1/60 s
 stays frozen
 chooses one
+requires battery > 5% or in_dock > 1/2
+maintains 1 - near > least of left right
+sensor unsafe is broken a.Go+Dock
 influences Stop over throttle and a.b at 1 when x > 2 cuts below 5%
 influences Stop over throttle
 contains cat is walker seeks robot range far

@@ -19,6 +19,7 @@ _NUMBER = re.compile(r"([+-]?)[ \t]*([0-9./]+)")
 _FORMS: Mapping[str, type[Struct]] = {
     "master": syntax.Master, "tick": syntax.Tick, "mind": syntax.Version, "unit": syntax.Unit, "number": syntax.Number,
     "reads": syntax.Reads, "gate": syntax.Gate, "chooses": syntax.Chooses, "stays": syntax.Stays,
+    "requires": syntax.Requires, "maintains": syntax.Maintains, "achieves": syntax.Achieves,
     "contains": syntax.Contains, "varies": syntax.Varies, "fails": syntax.Fails, "lasts": syntax.Lasts,
     "counts": syntax.Counts, "transmission": syntax.Transmits, "needs": syntax.Needs, "until": syntax.Needs,
     "each": syntax.Each, "when": syntax.When, "comparison": syntax.Comparison, "argument": Argument,
@@ -73,7 +74,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         """A word."""
         return Name(str(token), self._span(token))
 
-    TITLE = PART = WHOLE = TASK = COMPUTED = NUMBERED = SEVERAL = ORDERED = GYMNASIUM = ENVIRONMENT = NAME
+    TITLE = PART = WHOLE = TASK = COMPUTED = NUMBERED = SEVERAL = ORDERED = BROKEN = GYMNASIUM = ENVIRONMENT = NAME
     FROM = TO = BY = FACING = AT = NAME
 
     def COMPARE(self, token: Token) -> str:  # noqa: N802
@@ -132,9 +133,11 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         return Argument(key, Numbers((parts[0],), parts[0].span), span)
 
     def outside(self, meta: Any, parts: list[Any]) -> Phrase:
-        """The environment goes as an argument that is called as its kind."""
-        kind, environment = parts
-        return Phrase(kind, (Argument(kind, environment, self._span(meta)),), self._span(meta))
+        """The environment, or the skill, goes as an argument that is called as its kind."""
+        kind, name = parts
+        return Phrase(kind, (Argument(kind, name, self._span(meta)),), self._span(meta))
+
+    broken = outside
 
     def its(self, meta: Any, parts: list[Any]) -> Phrase:
         """A phrase of the environment's own (its reward): both words are the name of its kind."""

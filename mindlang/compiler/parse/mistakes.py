@@ -24,6 +24,7 @@ class Mistake:
 
 
 _SENDS = r"(?:drives|influences|sensor\s+\w+\s+is\s+computed)"  # what takes a condition and an otherwise
+_WHEN = r"\b(?:when|requires|maintains|achieves)\b"  # before a condition
 _PART, _WHOLE, _VERB, _NOUN = ("|".join(words) for words in (PARTS, WHOLES, VERBS, NOUNS))
 _NAMED = f"{_NOUN}|reads|drives|influences|contains|teaches|master"  # what a name stands after
 _INVISIBLE = r"[\x00-\x08\x0e-\x1f\x7f\u00ad\u200b-\u200f\u202a-\u202e\u2060-\u2064\ufeff]+"  # characters
@@ -270,16 +271,16 @@ MISTAKES = (
     Mistake("unknown-unit", r"(?<![\w.])[\d.]*\d(?P<here>(?!(?:deg|s|ticks|generations)\b)[A-Za-z_]\w*)",
         "{here} is not a unit of the language.", "The units are s, ticks, generations, deg and %.", "lasts 5k ticks"),
     # Operators and conditions.
-    Mistake("logic", r"\bwhen\b.*?(?P<here>&&?|\|\|?|\bnot\b|!(?!=))",
+    Mistake("logic", rf"{_WHEN}.*?(?P<here>&&?|\|\|?|\bnot\b|!(?!=))",
         "There is no {here} in a condition.",
         "Write and or or between comparisons; what is not so, compares the other way.",
         "rewards 1 per tick when holding > 0.5 && charge > 0.5"),
     Mistake("logic", r"\bwhen\b.*?\b(?P<here>when)\b", "A second comparison stands after and, or after or.",
         "Write and instead of when.", "rewards 1 per tick when holding > 0.5 when charge > 0.5"),
-    Mistake("logic", r"\bwhen\b.*?(?P<here>\(.*?\b(?:and|or)\b.*\))",
+    Mistake("logic", rf"{_WHEN}.*?(?P<here>\(.*?\b(?:and|or)\b.*\))",
         "Comparisons stand without parentheses.", "and holds more tightly than or: a and b or c and d.",
         "rewards 1 per tick when (holding > 0.5 and charge > 0.5)"),
-    Mistake("logic", r"\bwhen\b.*?\b(?P<here>and|or)\s+[^<>]*$",
+    Mistake("logic", rf"{_WHEN}.*?\b(?P<here>and|or)\s+[^<>]*$",
         "On each side of {here} stands a comparison.", "Write for example when holding > 0.5 {here} charge > 0.5.",
         "rewards 1 per tick when holding > 0.5 and charge"),
     Mistake("comparison", r"(?P<here>==|!=|=<|=>|<>|≠)", "{here} is not a comparison of the language.",
@@ -289,10 +290,10 @@ MISTAKES = (
         "rewards 1 per tick when holding ≤ 1"),
     Mistake("comparison", r"(?P<here>[≥⩾])", "{here} is not a character of the language.", "Write >=.",
         "rewards 1 per tick when holding ≥ 1"),
-    Mistake("comparison", r"\bwhen\b.*?(?P<here>(?<![<>])=|\bis\b)", "{here} does not compare.",
+    Mistake("comparison", rf"{_WHEN}.*?(?P<here>(?<![<>])=|\bis\b)", "{here} does not compare.",
         "Compare with < <= > or >=; readings are real numbers, which are hardly ever equal.",
         "rewards 1 per tick when holding = 1"),
-    Mistake("comparison", r"\bwhen\b[^<>]*[<>]=?[^<>]*(?P<here>[<>]=?)", "A condition is one comparison.",
+    Mistake("comparison", rf"{_WHEN}[^<>]*[<>]=?[^<>]*(?P<here>[<>]=?)", "A condition is one comparison.",
         "Leave one of the two out.", "rewards 1 per tick when 0.2 < holding < 0.5"),
     Mistake("order", r"^\s*rewards\b.*?\b(?P<here>when\b.*?|for\s+each\b.*?)\s+per\s+tick\b",
         "per tick stands before this.", "Write rewards … per tick {here}.", "rewards 1 when holding > 0.5 per tick"),
@@ -385,6 +386,10 @@ MISTAKES = (
         "Write a number, or leave the argument out.", "memory mood is cell decay None"),
     Mistake("truth", r"\b(?P<here>True|False|TRUE|FALSE)\b", "{here} is no value: every value is a number.",
         "Write 1 for what is true, and 0 for what is not.", "influences Seek at True"),
+    Mistake("malformed-line", r"\bis\s+broken\s+(?P<here>of|by)\s+(?P<name>[A-Z][\w+]*)",
+        "The skill stands right behind broken.", "Write broken {name}.", "sensor unsafe is broken of Seek"),
+    Mistake("malformed-line", r"\bis\s+broken\s+[A-Z][\w+]*\s+(?P<here>[a-z].*)",
+        "broken takes nothing but its skill.", "Leave {here} out.", "sensor unsafe is broken Seek range 5"),
     Mistake("small-word", rf"{_HEAD}\s+(?P<here>[A-Z]\w*)", "The name of a kind has small letters.",
         "Write {lower}; a kind of {noun} is {kinds}.", "skill Seek is MLP hidden 2"),
     Mistake("small-word", rf"{_HEAD}\s.*?\s(?P<here>[A-Z]\w*)", "Arguments and what they name have small letters.",

@@ -135,6 +135,8 @@ def _value(
             _check_thing(name, noun, phrase.kind.text, parameter.key, scope, findings)
         case "sensor":
             scope.names.find(name, ("sensor", "memory"), findings)
+        case "skill":
+            scope.names.find(name, ("skill",), findings)
         case "environment" | "name of a part of an observation or an action":
             pass  # what there is, nobody but the environment knows: `resolve.outside` asks it
         case "Python function":

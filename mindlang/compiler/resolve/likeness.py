@@ -11,7 +11,19 @@ from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.names import Names
 from mindlang.compiler.references import DRIVABLE_NOUNS, READABLE_NOUNS
 from mindlang.compiler.resolve.parts import ONE_OF_TWO, said_once
-from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Sends, Term, of_form, rebuilt, verb_of
+from mindlang.compiler.resolve.promises import resolve_promises
+from mindlang.compiler.syntax import (
+    Declaration,
+    Drives,
+    Influences,
+    Promise,
+    Reads,
+    Sends,
+    Term,
+    of_form,
+    rebuilt,
+    verb_of,
+)
 
 # The nouns of what stands for something.
 NOUNS: Mapping[type[Any], tuple[str, ...]] = {
@@ -41,7 +53,7 @@ def alike(
         hint = f"Say what {name} is, and repeat the lines of {other.name}."
         findings.error("like-no-learner", like.span, message, hint)
         return unsaid(own)
-    for more in (fact for fact in own.facts if not isinstance(fact, Reads | Sends) or _says_more(fact)):
+    for more in (fact for fact in own.facts if not isinstance(fact, Reads | Sends | Promise) or _says_more(fact)):
         message = f"{name} is like {other.name}, so it only says what it reads, drives or influences in place of that."
         hint = f"Take this line out, or say it of {other.name}: it holds for both."
         findings.error("like-says-more", more.span, message, hint)
@@ -55,10 +67,11 @@ def alike(
         if twice := next((fact for fact in lines if names_.count(fact.name.text) > 1), None):
             message = f"{name} would {verb_of(twice).removesuffix('s')} {twice.name.text} twice."
             findings.error("repeated-input", twice.span, message, "Write something else in this line.")
-    return model.Skill(name, other.function, reads, edges, False, own, other.owner, other.chooses)
+    promises = resolve_promises(own, names, widths, findings)
+    return model.Skill(name, other.function, reads, edges, False, own, other.owner, other.chooses, promises)
 
 
-def _says_more(fact: Reads | Sends) -> bool:
+def _says_more(fact: Reads | Sends | Promise) -> bool:
     """True if a line says which value it sends, when, or over what."""
     return isinstance(fact, Sends) and bool(
         fact.at or fact.gate or (isinstance(fact, Influences) and (fact.cuts or fact.over))

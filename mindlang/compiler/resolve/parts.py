@@ -8,6 +8,7 @@ from mindrun.kinds.actuators.actuator import ActuatorKind
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.registry import kinds
 from mindrun.kinds.registry import names as kind_names
+from mindrun.kinds.sensors.broken import Broken
 from mindrun.kinds.sensors.computed import Computed
 from mindrun.kinds.sensors.sensor import directions
 from msgspec.structs import replace
@@ -18,7 +19,7 @@ from mindlang.compiler.model import Part, source_graph
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
-from mindlang.compiler.syntax import Declaration, Fact, Header, Name, verb_of
+from mindlang.compiler.syntax import Declaration, Fact, Header, Maintains, Name, of_form, verb_of
 
 MOST_READINGS = 20_000
 ONE_OF_TWO = "Leave one of the two lines out."
@@ -72,6 +73,9 @@ def sensors(names: Names, findings: Findings) -> Parts:
     visible = Visible(widths, unread=names.unread, made_of="numbers, sensors and memories")
     for name, header in formulas.items():
         plain[name] = _computed(header, visible, findings)
+    for name, sensor in plain.items():
+        if isinstance(sensor.kind, Broken):
+            plain[name] = replace(sensor, kind=_broken(sensor, names, visible, findings))
     found = tuple(replace(plain[name], width=widths[name]) for name in names.of("sensor") if name in plain)
     for circle in circles(source_graph(found)):
         message = f"A sensor is derived from itself: {' → '.join([*circle, circle[0]])}."
@@ -82,7 +86,7 @@ def sensors(names: Names, findings: Findings) -> Parts:
         findings.error("too-many-readings", widest.span, message, f"A mind takes {MOST_READINGS}: leave some out.")
     kinds = {sensor.name: sensor.kind for sensor in found}
     around = directions(kinds)
-    for sensor in (each for each in found if each.name not in formulas):
+    for sensor in (each for each in found if each.name not in formulas and not isinstance(each.kind, Broken)):
         if flaw := sensor.kind.flaw(widths, around) or sensor.kind.misfit(kinds):
             header = names.table["sensor"][sensor.name].header
             arguments = header.phrase.arguments if header.phrase else ()
@@ -101,6 +105,20 @@ def _computed(header: Header, visible: Visible, findings: Findings) -> Part[Any]
         hint = "Add what it reads where the condition does not hold: otherwise 0."
         findings.error("no-otherwise", gate.span, f"{header.name.text} reads nothing in other ticks.", hint)
     return Part(header.name.text, Computed(formula), header.name.span, at=at, gate=gate)
+
+
+def _broken(sensor: Part[Any], names: Names, visible: Visible, findings: Findings) -> Broken:
+    """The kind of a sensor that says when a skill breaks what it maintains, with that: all of its lines at once."""
+    skill = names.table["skill"].get(sensor.kind.broken)
+    lines = of_form(skill.facts, Maintains) if skill else ()
+    if skill and skill.whole and not lines:
+        message = f"{sensor.kind.broken} maintains nothing that could be broken."
+        hint = f"Say below skill {sensor.kind.broken} what it does: maintains battery > 5%."
+        findings.error("nothing-to-break", names.table["sensor"][sensor.name].header.span, message, hint)
+    formula: tuple[Any, ...] = ()
+    for line in resolve_expressions(tuple(lines), visible, Findings()):  # mistakes are reported of the skill
+        formula += (*line.formula, *[("and", 0)] * bool(formula))
+    return Broken(sensor.kind.broken, formula)
 
 
 def _widths(sensors: Mapping[str, Part[Any]], of_one: Iterable[str]) -> dict[str, int]:

@@ -17,9 +17,11 @@ from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.likeness import alike, unsaid
 from mindlang.compiler.resolve.parts import ONE_OF_TWO, refuse_facts, said_once
+from mindlang.compiler.resolve.promises import resolve_promises
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Chooses, Declaration, Drives, Influences, Reads, Sends, Stays, of_form
 
+FACTS = ("reads", "drives", "influences", "chooses", "stays", "requires", "maintains", "achieves")
 STATES: Mapping[type[Stays] | type[Chooses], tuple[str, str]] = {Stays: ("stay", "frozen"), Chooses: ("choose", "one")}
 
 
@@ -49,7 +51,7 @@ def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple
 def _skill(
     name: str, declaration: Declaration, names: Names, widths: Mapping[str, int], findings: Findings
 ) -> model.Skill:
-    refuse_facts(declaration, ("reads", "drives", "influences", "chooses", "stays"), findings)
+    refuse_facts(declaration, FACTS, findings)
     phrase = declaration.header.phrase
     function: Any = make_kind("skill", phrase, Scope(names, None), findings) if phrase else None
     reads = _reads(declaration, names, findings)
@@ -62,7 +64,8 @@ def _skill(
     if function and declaration.whole:
         _check_works(declaration, function, edges, findings)
     frozen, chooses = (_is_so(declaration, form, findings) for form in (Stays, Chooses))
-    return model.Skill(name, function, reads, edges, frozen, declaration, chooses=chooses)
+    promises = resolve_promises(declaration, names, widths, findings)
+    return model.Skill(name, function, reads, edges, frozen, declaration, chooses=chooses, promises=promises)
 
 
 def _reads(declaration: Declaration, names: Names, findings: Findings) -> tuple[str, ...]:

@@ -5,15 +5,24 @@ from collections.abc import Iterator
 from mindlang.compiler.model import Skill
 from mindlang.compiler.references import mentions_in
 from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import Fact, Sends
-from mindlang.editing.insertion import first_line, indentation, insert_below, replace_line, replace_span, without_fact
+from mindlang.compiler.syntax import Fact, Promise, Sends, of_form
+from mindlang.editing.insertion import (
+    first_line,
+    indentation,
+    insert_below,
+    line_of,
+    replace_line,
+    replace_span,
+    without_fact,
+)
 from mindlang.editing.project import EditError, MindChange, Project, Unshared
 
 
 def unshare(project: Project, skill: str) -> MindChange:
     """Let a skill that is like another have weights of its own.
 
-    It says for itself then what the other one says, and begins with a copy of the weights that they shared.
+    It says for itself then what the other one says, but for what that promises, and begins with a copy of the weights
+    that they shared.
 
     Example: mindc edit unshare like.mind GoToDropZone
     """
@@ -28,7 +37,9 @@ def unshare(project: Project, skill: str) -> MindChange:
     targets = ([edge.target for edge in each.edges] for each in (owner, own))
     sends, reads = dict(zip(*targets, strict=True)), dict(zip(owner.reads, own.reads, strict=True))
     indent, unshared = indentation(declaration), Unshared(skill, own.like, reads, sends)
-    lines = [f"{indent}{_restated(project, owner, fact, unshared)}" for fact in owner.declaration.facts]
+    shared = (fact for fact in owner.declaration.facts if not isinstance(fact, Promise))
+    lines = [f"{indent}{_restated(project, owner, fact, unshared)}" for fact in shared]
+    lines += [f"{indent}{line_of(promise)}" for promise in of_form(own.declaration.facts, Promise)]
     header = replace_span(declaration.header.span, f"skill {skill} is {phrase.span.text}")
     return MindChange((header, *_below(own, lines)), unshared=unshared)
 

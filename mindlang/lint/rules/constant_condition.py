@@ -6,7 +6,7 @@ most often the number lacks a % or stands on the wrong side. A reward that is ne
 that never comes for `dead-event`.
 """
 
-from mindlang.compiler.model import Edge, End, Part
+from mindlang.compiler.model import Edge, End, Part, Promise
 from mindlang.lint.examples import COURSE, EYE, READS
 from mindlang.lint.intervals import why_always, why_never
 from mindlang.lint.study import Finding, Found, Study
@@ -20,6 +20,7 @@ BAD = (
     f"{READS}  drives left_wheel at 1 when eye > 20\n",
     f"{READS}  drives left_wheel at 1 when eye < 20% and eye > 80% otherwise 0.5\n",
     f"{EYE}sensor near is computed at 1 - eye when eye < 20 otherwise 0\n",
+    f"{READS}  maintains eye > 20\n  drives left_wheel at 1\n",
     f"{BEGIN}  rewards 1 per tick when eye < 2\n",
     f"{BEGIN}  ends when eye < 20 or eye > 80\n",
 )
@@ -29,7 +30,7 @@ AT_ONCE = "A run would end with its first tick: compare with something that is s
 
 def check(study: Study) -> Found:
     for when, of, world in study.conditions:
-        if isinstance(of, Edge | Part) and (never := why_never(when, world.range_in(of))):
+        if isinstance(of, Edge | Part | Promise) and (never := why_never(when, world.range_in(of))):
             yield Finding(when.span, f"This condition never holds: {never}.", REMEDY)
         elif always := why_always(when, world.range_in(of)):
             hint = AT_ONCE if isinstance(of, End) else REMEDY

@@ -32,7 +32,8 @@ def scene_of(graph: Graph) -> Scene:
     """The scene of a graph's sensors: all that they depend on beside their own arguments."""
     places = {memory.name: slice(memory.start, memory.start + 1) for memory in graph.memories}
     places |= {sensor.name: slice(sensor.start, sensor.start + sensor.width) for sensor in graph.sensors}
-    return Scene(graph.tick, places, directions({sensor.name: sensor.kind for sensor in graph.sensors}))
+    around = directions({sensor.name: sensor.kind for sensor in graph.sensors})
+    return Scene(graph.tick, places, around, graph.skill_numbers)
 
 
 def virtual_sensors(graph: Graph) -> tuple[tuple[slice, Reader], ...]:
@@ -43,7 +44,7 @@ def virtual_sensors(graph: Graph) -> tuple[tuple[slice, Reader], ...]:
 
 
 class Engine:
-    """One mind and its state: the tick's number, the readings before, the memory cells.
+    """One mind and its state: the tick's number, the readings and influence before, the memory cells.
 
     `procedures` is the folder of the procedures' modules or their texts by
     dotted name, `master` another skill than the mind's own to be in charge. Raises MindError where one does not fit.
@@ -87,8 +88,8 @@ class Engine:
             actuators = len(self._neutral)
             kept = self._decay * self._cells
             self._cells = np.where(thought.driven[actuators:], kept + self._rest * thought.command[actuators:], kept)
-        self._tick, self._before = self._tick + 1, self.readings
         self.influence = thought.influence
+        self._tick, self._before = self._tick + 1, np.concatenate([self.readings, self.influence])
         self.faults += thought.faults
         return np.where(thought.driven[:actuators], thought.command[:actuators], self._neutral)
 

@@ -89,12 +89,22 @@ class Edge:
 
 
 @dataclass(frozen=True, slots=True)
+class Promise:
+    """A condition of readings that a skill `requires`, `maintains` or `achieves`; `text` is its line as written."""
+
+    word: Literal["requires", "maintains", "achieves"]
+    text: str
+    when: Program
+
+
+@dataclass(frozen=True, slots=True)
 class Skill:
     """A skill: `inputs` are indices into the readings, `edges` in the order of the source.
 
     Among a function's outputs number i belongs to the i-th edge without `at`. One that is `frozen` is not taught. One
     that is `like` another has the same function, which sends the same, and shares its weights for ever. One that
     `chooses` sends 1 over the influence that is greatest before the clamp, of equals the first, and 0 over its others.
+    What it `promises` changes nothing in what it computes (`mindrun.engine.promises`).
     """
 
     name: str
@@ -104,6 +114,7 @@ class Skill:
     frozen: bool = False
     like: str = ""
     chooses: bool = left_out(False)
+    promises: tuple[Promise, ...] = left_out(())
 
     @property
     def owner(self) -> str:

@@ -24,9 +24,17 @@ def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> tuple[li
 
 
 def measured_in_world(graph: Graph, master: str, task: Task) -> list[Sensor]:
-    """The sensors that a simulated run measures: what skills below the master and rewards depend on."""
-    skills, aside = used_sensors(graph, reachable(graph, master), task)
-    return skills + aside
+    """The sensors that a simulated run measures: what skills below the master, rewards and promises depend on."""
+    reached = reachable(graph, master)
+    skills, aside = used_sensors(graph, reached, task)
+    return skills + aside + promised_sensors(graph, reached, skills + aside)
+
+
+def promised_sensors(graph: Graph, reached: Iterable[Skill], known: Collection[Sensor]) -> list[Sensor]:
+    """The sensors beside the known ones on which only what skills promise depends; sources first."""
+    promises = (promise for skill in reached for promise in skill.promises)
+    rows = {index for promise in promises for index in leaves(promise.when, "reading")}
+    return [sensor for sensor in with_sources(graph, rows) if sensor not in known]
 
 
 def measured_on_robot(graph: Graph, wired: Collection[str]) -> list[Sensor]:

@@ -12,7 +12,7 @@ from mindrun.kinds.registry import arguments
 from mindrun.kinds.sensors.sensor import directions
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ROBOT
 from mindrun.numbers.expression import CHOICES, OPERATORS, is_condition, is_valid_program, leaves
-from mindrun.numbers.quantity import COORDINATE, NUMBER, THING, UNSAID, fits
+from mindrun.numbers.quantity import COORDINATE, NUMBER, SKILL, THING, UNSAID, fits
 
 NAME = re.compile(r"[^\W\d_]\w*([+.]\w+)*")
 MIN_TICK_SECONDS, MAX_TICK_SECONDS = 1e-9, 1e9  # seconds of a tick
@@ -68,7 +68,7 @@ def lesson_flaws(lesson: Lesson) -> Iterator[str]:
 
 def _sense_flaws(graph: Graph) -> Iterator[str]:
     """Readings lie side by side, and each sensor has as many as its kind."""
-    start = 0
+    start, skills = 0, {skill.name for skill in graph.skills}
     widths = {memory.name: 1 for memory in graph.memories} | {sensor.name: sensor.width for sensor in graph.sensors}
     kinds = {sensor.name: sensor.kind for sensor in graph.sensors}
     around = directions(kinds)
@@ -77,6 +77,8 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
         width = widths.get(sensor.kind.source) if shape is None else prod(shape)
         if sensor.width != width or sensor.start != start or sensor.width < 1:
             yield f"sensor {sensor.name} has not the readings of its kind"
+        elif not {*filter(None, [sensor.kind.named(SKILL)])} <= skills:
+            yield f"sensor {sensor.name} is about a skill that is not there"
         elif (
             not set(sensor.kind.sources) <= widths.keys()
             or sensor.kind.flaw(widths, around)
@@ -119,6 +121,8 @@ def _skill_flaws(graph: Graph, number: int, skill: Skill, width: int) -> Iterato
         yield "has influence over what is not there"
     if skill.chooses and all(edge.to != "skill" for edge in skill.edges):
         yield "has nothing to choose"
+    if not all(is_condition(each.when) and _computes(each.when, range(width)) for each in skill.promises):
+        yield "promises what cannot be computed"
 
 
 def _likeness_flaws(graph: Graph) -> Iterator[str]:

@@ -13,6 +13,7 @@ from mindrun.graph.graph import Graph
 from mindrun.graph.measured import with_sources
 from mindrun.graph.named_readings import physical
 from mindrun.graph.skill_sets import reachable
+from mindrun.kinds.registry import left_out
 from mindrun.numbers.quantity import NUMBER, RATIO, Quantity, Reference
 
 VALUES = Quantity("a number of values", {"": 1.0}, low=1, high=15, whole=True)
@@ -23,6 +24,8 @@ A_SECOND = Quantity("how much of the travel in a second", {"/s": 1.0}, low=0.0)
 SWITCH = Reference("switch", ("true", "false"))
 OnFault = Literal["neutral", "hold", "blank"]
 ON_FAULT = Reference("reaction", get_args(OnFault))
+OnBroken = Literal["tell", "neutral"]
+ON_BROKEN = Reference("reaction", get_args(OnBroken))
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,12 +74,14 @@ class ActuatorWire:
 class Wiring:
     """A robot: every actuator of one mind, and every physical sensor that its active skills read (or more of them).
 
-    Both are in the order of its graph.
+    Both are in the order of its graph. Where a skill breaks what it promises, the loop tells of it (`on_broken`
+    "tell"), or brings every actuator to neutral as well ("neutral").
     """
 
     robot: str
     sensors: tuple[SensorWire, ...]
     actuators: tuple[ActuatorWire, ...]
+    on_broken: OnBroken = left_out("tell")
 
 
 def reading(wire: SensorWire, raw: float | None, circular: bool | None = False) -> float:

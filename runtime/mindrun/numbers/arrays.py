@@ -1,17 +1,20 @@
 """The types of arrays that kinds, engine and learning exchange; the operators of expressions on arrays."""
 
 from collections.abc import Callable
-from operator import add, mul, sub, truediv
+from operator import add, mul, neg, sub, truediv
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from mindrun.numbers.expression import Program, fold
 
 Readings = NDArray[np.float32]
 Reader = Callable[[int, Readings, Readings | None], Readings | np.float32]  # the tick's number, readings now and before
 Weights = NDArray[np.float32]  # of one skill: [genes]
 Layers = tuple[tuple[int, int], ...]  # of a network: (values in, values out) of each
 Compute = Callable[[NDArray[np.float32]], NDArray[np.float32]]  # a skill's inputs to its outputs
+Leaf = Callable[[str, Any], Any]  # the word and the operand of a leaf of an expression to its values [rows], or to one
 Frame = NDArray[np.uint8]  # of a camera: [row, column, blue green red]
 
 
@@ -43,3 +46,10 @@ OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
     "when": _when,
     "otherwise": lambda value, other: np.where(value == np.inf, other, value)[()],
 }  # fmt: skip
+
+
+def evaluate_rows(program: Program, leaf: Leaf, rows: int) -> NDArray[np.float64]:
+    """The value of an expression in each of so many rows, `leaf` giving those of its readings [rows]."""
+    with np.errstate(all="ignore"):
+        value = fold(program, leaf, neg, lambda operator, left, right: OPERATORS[operator](left, right))
+        return np.broadcast_to(np.float64(value), (rows,))

@@ -15,6 +15,7 @@ from time import monotonic, sleep
 
 from mindrun.driver import DeviceError
 from mindrun.engine.engine import Engine
+from mindrun.engine.promises import PromiseWatcher
 from mindrun.errors import MindError
 from mindrun.graph.bundle import Bundle, digest, read_bundle
 from mindrun.graph.graph import Graph, Task
@@ -158,6 +159,8 @@ def drive(
         samplers = stack.enter_context(_sampling(wiring))
         guardian = stack.enter_context(Guardian(plan_of(graph.tick, neutrals, wiring), inherited=held))
         loop = Loop(engine, ReadingFilter(graph, samplers), guardian, Rate(graph.tick), options.arm, recorder, tell)
+        promises = PromiseWatcher(graph, master)
+        loop.promises, loop.stops_on_broken = promises if promises.promises else None, wiring.on_broken == "neutral"
         _wait(samplers, guardian, loop, stop)
         notify("READY=1")
         try:

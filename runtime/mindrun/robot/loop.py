@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.engine.engine import Engine
+from mindrun.engine.promises import BY_INFLUENCE, HELD, NOT_JUDGED, PromiseWatcher
 from mindrun.graph.recording_header import BY_LOOP, NOT_STOPPED, by_guardian
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.guard import failing
@@ -89,6 +90,8 @@ class Loop:
     """A mind in charge of a robot. `armed` lets the guardian move it; `tell` gets sentences as they become true.
 
     It counts the ticks in which it `stopped` the robot, and the others in which the guardian `held` it, by the reason.
+    It watches `promises`: of one that is broken `tell` gets a sentence, and again once it has held. Where the robot
+    `stops_on_broken`, it is stopped while a skill acts against what it requires or maintains.
     """
 
     engine: Engine
@@ -102,6 +105,9 @@ class Loop:
     ticks: int = 0
     stopped: int = 0
     held: Counter[str] = field(default_factory=Counter)
+    promises: PromiseWatcher | None = None
+    stops_on_broken: bool = False
+    broken: set[int] = field(default_factory=set)
 
     def run(self, goes_on: Callable[[TickResult], bool]) -> None:
         """Tick until `goes_on` says no; MindError where the mind or the guardian fails."""
@@ -123,7 +129,8 @@ class Loop:
         self.faulty = {*sensed.why}
         commands = self.engine.tick(sensed.readings)
         too_old = self.pace.clock() - time >= MAX_THINKING_TICKS * self.pace.tick  # to act on what was sensed then
-        stopped = sensed.must_stop or behind or too_old
+        must_stop = self._broken(self.promises) if self.promises else False
+        stopped = sensed.must_stop or behind or too_old or must_stop
         sent = self.neutral if stopped else commands
         self.guardian.send(sent.tolist(), self.armed and not stopped)  # unarmed, neutral is not slowed down by slew
         held = self.guardian.holds if self.armed and not stopped else ""
@@ -134,6 +141,22 @@ class Loop:
         self.stopped += stopped
         self.held.update([held] * bool(held))
         return done
+
+    def _broken(self, promises: PromiseWatcher) -> bool:
+        """Tell of a promise that is broken in this tick, and again once it has held; True where one stops the robot."""
+        readings = np.where(self.senses.measured, self.engine.readings, np.float32(np.nan))
+        judged = promises.feed(readings[None], self.engine.influence[None])[0]
+        must_stop = False
+        for place, (skill, promise) in enumerate(promises.promises):
+            if (verdict := judged[place]) == HELD:
+                self.broken.discard(place)
+            elif verdict != NOT_JUDGED:
+                must_stop |= self.stops_on_broken and promise.word != "achieves"
+                if place not in self.broken:
+                    by = " by those above it" if verdict == BY_INFLUENCE else ""
+                    self.tell(f"{skill} {promise.text}: broken{by}")
+                self.broken.add(place)
+        return must_stop
 
     @property
     def neutral(self) -> NDArray[np.float32]:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Graph, Sensor, Task
-from mindrun.graph.measured import rows_of, used_sensors
+from mindrun.graph.measured import promised_sensors, rows_of, used_sensors
 from mindrun.graph.scopes import influence_scopes
 from mindrun.graph.weights import genes, reachable
 from mindrun.kinds.sensors.sensor import Physical
@@ -42,21 +42,22 @@ def build(
     rewards, ends = task_rows.reward_rows(task, programs), task_rows.end_rows(task, programs)
     presences = task_rows.presence_rows(task, programs)
     used, aside = used_sensors(graph, reached, task)
-    sensors, remembered = sensor_rows(graph, used, aside, task, programs, parameters)
+    exact = promised_sensors(graph, reached, used + aside)
+    sensors, remembered = sensor_rows(graph, (used, aside, exact), task, programs, parameters)
     driven, delays = actuator_rows(graph, parameters)
     measures, changes = task_rows.measure_rows(task, parameters)
     events, patches, arrivals = task_rows.event_rows(task)
     walls = [wall for thing in task.things for wall in thing.kind.walls]
     tables = Tables(
         **sensors, **skills, **task_rows.walker_rows(task, graph.tick, parameters),
-        world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside, master),
+        world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside + exact, master),
         codes=np.array(programs.rows, CODE), actuators=driven, memories=memory_rows(graph),
         things=task_rows.thing_rows(graph, task, parameters), loose=task_rows.loose_rows(task, graph.tick, parameters),
         obstacles=task_rows.obstacle_rows(task, parameters), options=task_rows.option_rows(task),
         walls=np.array(walls, np.float64).reshape(-1, BOX_COLUMNS),
         measures=measures, events=events, ends=ends, rewards=rewards,
         presences=presences, choices=np.array(parameters.choices, np.float64),
-        measured=rows_of(graph, used + aside), library=library,
+        measured=rows_of(graph, used + aside + exact), library=library,
         parameters=parameters.table(),  # last: all others add to them
     )  # fmt: skip
     return tables, {
@@ -74,24 +75,24 @@ def genome_length(graph: Graph, learners: Sequence[str]) -> int:
 
 
 def sensor_rows(
-    graph: Graph, used: list[Sensor], aside: list[Sensor], task: Task, programs: Programs, parameters: Parameters
+    graph: Graph, measured: Sequence[list[Sensor]], task: Task, programs: Programs, parameters: Parameters
 ) -> tuple[dict[str, NDArray[Any]], dict[str, int]]:
-    """The tables of the sensors that are used, their rays and numbers, and how many numbers are remembered of what.
+    """The tables of the sensors that are used, aside or exact, and how many numbers are remembered of what.
 
-    What is measured `aside` draws its noise from a generator of its own: a reward changes nothing in the world.
+    What is aside draws its noise from a generator of its own, what is exact has none: neither changes anything else.
     """
-    things, boxes, scene = rows_by_name(task), boxes_by_name(task), scene_of(graph)
+    (used, aside, exact), scene, things, boxes = measured, scene_of(graph), rows_by_name(task), boxes_by_name(task)
     rows, before, rough, rings, orders = list[Row](), 0, 0, 0, [s.name for s in graph.sensors if s.kind.is_order]
     rays, ray_row, passes, numbers = list[float](), list[int](), list[tuple[int, int]](), list[float]()
-    for is_aside, sensor in [(False, each) for each in used] + [(True, each) for each in aside]:
-        kind = sensor.kind
+    for sensor in used + aside + exact:
+        kind, roughness = sensor.kind, {} if sensor in exact else _roughness(sensor, parameters)
         about, solid = things.get(kind.thing, NOWHERE), boxes.get(kind.thing, NOWHERE)
-        (code, length), roughness = programs.add(placed(kind.formula, scene.starts)), _roughness(sensor, parameters)
+        code, length = programs.add(placed(kind.formula, scene.starts))
         rows.append({
             "lane": sensor_unit(kind).place, "start": sensor.start, "width": sensor.width,
             "thing": about.start, "things": len(about), "box": solid.start, "boxes": len(solid),
             "turns": not scene.directions.isdisjoint({sensor.name, kind.source}),
-            "is_aside": is_aside, "every": 1, "code": code, "length": length,
+            "is_aside": sensor in aside, "every": 1, "code": code, "length": length,
             "ray": len(rays), "number": len(numbers), "before": before, "held": rough, "ring": rings,
             "part": orders.index(sensor.name) if kind.is_order else 0, **roughness, **kind.row(scene),
         })  # fmt: skip
@@ -100,7 +101,7 @@ def sensor_rows(
         passes += [(about.start, about.stop)] * len(kind.rays)
         numbers += kind.numbers
         before += sensor.width * kind.remembered
-        if isinstance(kind, Physical):
+        if roughness:
             rough += sensor.width
             rings += sensor.width * int(roughness["delay"])
     turn = np.array(rays, np.float64)

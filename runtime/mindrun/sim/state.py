@@ -185,7 +185,7 @@ class RunState(Block):
 
 SENSED = (
     "readings", "before", "body", "heading", "things", "held", "battery", "tick", "trail", "loose", "nearest",
-    "nearest_of", "frame", "sight", "boxes", "nearby", "nearby_count", "stack", "active", "seed",
+    "nearest_of", "frame", "sight", "boxes", "nearby", "nearby_count", "stack", "active", "seed", "influence",
 )  # fmt: skip
 SENSED_PARTS = {"mind": MindState, "world": WorldState, "sight": SightState}
 

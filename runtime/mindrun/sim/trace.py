@@ -135,7 +135,7 @@ def take_over(rollout: Rollout, seed: int, tick: int, other: Rollout, changes: S
     if tick > 1 and rollout.advance(tile, jobs, tick - 1) == 0:
         raise ChangeError(f"the run is over before tick {tick:,}", "say an earlier one")
     ours, theirs = tile.state.mind, empty_state(other.tables, other.sizes, 1).mind
-    for name in (*REMEMBERED, *(("recurrent",) if rollout.graph.skills == other.graph.skills else ())):
+    for name in (*REMEMBERED, *(("recurrent", "influence") if rollout.graph.skills == other.graph.skills else ())):
         getattr(theirs, name)[:] = getattr(ours, name)
     taken = Tile(replace(tile.state, mind=theirs), Memories(other.procedures), tile.kept)
     return _traced(other, taken, jobs, changes)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol
 
 from mindrun.kinds.environment import Slot
@@ -50,12 +50,14 @@ class BatteryModel(NamedTuple):
 class Scene:
     """All that a sensor can depend on beside its own arguments.
 
-    The length of a `tick` in seconds, where the readings of each sensor and memory stand, and which are directions.
+    The length of a `tick` in seconds, where the readings of each sensor and memory stand, which are directions, and
+    where the influence of each skill stands: of the tick before, in the engine behind that one's readings.
     """
 
     tick: float
     places: Mapping[str, slice]
     directions: Set[str] = frozenset()
+    skills: Mapping[str, int] = field(default_factory=dict)
 
     @property
     def starts(self) -> Mapping[str, int]:

@@ -134,7 +134,7 @@ def move(state, source, target):
         copy_lane(rows, source, target)
     for rows in (mind.readings, mind.before, mind.measured, mind.rings, mind.genome, mind.recurrent, mind.late):
         copy_lane(rows, source, target)
-    for rows in (mind.commands, judge.last_commands):
+    for rows in (mind.commands, mind.influence, judge.last_commands):
         copy_lane(rows, source, target)
     for rows in (sight.nearby, sight.anchor, judge.left_changes, judge.right_changes, judge.lines):
         copy_lane(rows, source, target)

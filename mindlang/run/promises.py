@@ -1,0 +1,97 @@
+"""What skills promise, counted over runs: how often each promise was kept, and who broke it."""
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from mindrun.engine.promises import BY_INFLUENCE, BY_SKILL, HELD, PromiseWatcher
+from mindrun.graph.graph import Graph
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.trace import trace
+
+from mindlang.run.edge_flow import EdgeFlows
+
+MAX_COUNTED_TICKS = 400_000  # of many runs: two seconds or so
+VERDICTS = {"held": HELD, "by_skill": BY_SKILL, "by_influence": BY_INFLUENCE}
+
+
+class PromiseCounts:
+    """Counts over runs: each promise is judged in some ticks of each; `runs` were counted."""
+
+    def __init__(self, graph: Graph, master: str) -> None:
+        self.watcher = PromiseWatcher(graph, master)
+        self.runs = 0
+        many = len(self.watcher.promises)
+        self._times = {name: np.zeros(many, np.int64) for name in (*VERDICTS, "unfinished", "broken_runs")}
+
+    def add(self, parts: Iterable[Any]) -> int:
+        """Count a run, of which parts have `readings` and `influence`; return how many ticks it had."""
+        self.watcher.reset()
+        ticks, was_broken = 0, np.zeros(len(self.watcher.promises), bool)
+        for part in parts:
+            judged = self.watcher.feed(part.readings, part.influence)
+            for name, verdict in VERDICTS.items():
+                self._times[name] += (judged == verdict).sum(axis=0)
+            was_broken |= (judged >= BY_SKILL).any(axis=0)
+            ticks += len(judged)
+        self._times["unfinished"] += self.watcher.acting
+        self._times["broken_runs"] += was_broken
+        self.runs += 1
+        return ticks
+
+    def data(self) -> list[dict[str, Any]]:
+        """Each promise with its counts; those that nobody could break so far are held 0 times."""
+        return [
+            {
+                "skill": skill,
+                "promise": promise.text,
+                **{name: int(times[i]) for name, times in self._times.items() if name in _told(promise.word)},
+                "runs": self.runs,
+            }
+            for i, (skill, promise) in enumerate(self.watcher.promises)
+        ]
+
+
+def promises_in(rollout: Rollout, master: str, seeds: Sequence[int]) -> list[dict[str, Any]]:
+    """The promises of a mind, counted over the first of the runs of these seeds, which are made again for that.
+
+    So many that they have MAX_COUNTED_TICKS together, and one at least; none where nothing is promised.
+    """
+    counts, ticks = PromiseCounts(rollout.graph, master), 0
+    for seed in seeds if counts.watcher.promises else ():
+        if ticks >= MAX_COUNTED_TICKS:
+            break
+        ticks += counts.add(trace(rollout, seed).chunks)
+    return counts.data()
+
+
+def promises_of(skill: str, flows: EdgeFlows, rows: range) -> list[dict[str, Any]]:
+    """What a skill promises, in how many of some rows of a run it is judged, broken and by whom, and where first."""
+    watcher = PromiseWatcher(flows.graph, flows.master)
+    if not any(owner == skill for owner, _ in watcher.promises):
+        return []
+    readings, influence = flows.rows(np.arange(rows.stop))
+    begins = sorted({0, *(row for row in range(rows.stop) if row in flows.begins)})
+    parts = []
+    for begin, end in pairwise([*begins, rows.stop]):
+        watcher.reset()
+        parts.append(watcher.feed(readings[begin:end], influence[begin:end]))
+    found = []
+    for column, (owner, promise) in zip(np.concatenate(parts)[rows.start :].T, watcher.promises, strict=True):
+        if owner == skill:
+            times = {name: int((column == verdict).sum()) for name, verdict in VERDICTS.items()}
+            broken = np.flatnonzero(column >= BY_SKILL)
+            first = int(broken[0]) + rows.start + 1 if len(broken) else None
+            found.append({"promise": promise.text, **times, "first_broken": first})
+    return found
+
+
+def _told(word: str) -> tuple[str, ...]:
+    """The counts that say something of promises of a word."""
+    match word:
+        case "requires":
+            return "held", "by_influence", "broken_runs"
+        case "achieves":
+            return "held", "by_skill", "by_influence", "unfinished", "broken_runs"
+    return "held", "by_skill", "by_influence", "broken_runs"
