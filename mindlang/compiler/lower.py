@@ -66,7 +66,8 @@ def _skills(mind: model.Mind, readings: Mapping[str, tuple[int, int]]) -> Iterat
     for skill in map(skills.__getitem__, order):
         places = [start + i for start, width in (readings[name] for name in skill.reads) for i in range(width)]
         edges = tuple(_edges(skill, numbers, Places(readings)))
-        yield graph.Skill(skill.name, skill.function, tuple(places), edges, skill.frozen, skill.like, skill.chooses)
+        said = skill.frozen, skill.like, skill.chooses, tuple(sorted(skill.files))
+        yield graph.Skill(skill.name, skill.function, tuple(places), edges, *said)
 
 
 def _edges(skill: model.Skill, numbers: Mapping[str, Mapping[str, int]], places: Places) -> Iterator[graph.Edge]:

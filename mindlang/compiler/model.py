@@ -75,6 +75,8 @@ class Edge(Struct, frozen=True):
 class Skill(Struct, frozen=True):
     """A skill; `reads` are names of sensors and memories; one that is `frozen` is not taught, one may `chooses` one.
 
+    `files` are those that its procedure uses.
+
     One that is `like` another has that one's function and weights; what it reads and sends stands in that one's order,
     and the lines of its edges are that one's.
     """
@@ -87,6 +89,7 @@ class Skill(Struct, frozen=True):
     declaration: syntax.Declaration
     like: str = ""
     chooses: bool = False
+    files: tuple[str, ...] = ()
 
     @property
     def span(self) -> Span:

@@ -13,8 +13,8 @@ PARTS = ("sensor", "actuator", "memory")
 WHOLES = ("body", "skill", "curriculum", "scene")
 NOUNS = (*PARTS, *WHOLES, "task")
 VERBS = (
-    "reads", "drives", "influences", "chooses", "stays", "contains", "starts", "draws", "varies", "fails", "lasts",
-    "ends", "succeeds", "rewards", "counts", "teaches",
+    "reads", "drives", "influences", "chooses", "stays", "uses", "contains", "starts", "draws", "varies", "fails",
+    "lasts", "ends", "succeeds", "rewards", "counts", "teaches",
 )  # fmt: skip
 SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
 
@@ -228,6 +228,13 @@ class Stays(Struct, frozen=True):
     span: Span
 
 
+class Uses(Struct, frozen=True):
+    """`uses "PATH"`: a file of the procedure"""
+
+    file: Text
+    span: Span
+
+
 class Contains(Struct, frozen=True):
     """`contains NAME is PHRASE [when CONDITION]`"""
 
@@ -343,8 +350,8 @@ class Teaches(Struct, frozen=True):
 
 
 Fact = (
-    Reads | Drives | Influences | Chooses | Stays | Contains | Starts | Draws | Varies | Fails | Lasts | Ends | Succeeds
-    | Rewards | Counts | Teaches
+    Reads | Drives | Influences | Chooses | Stays | Uses | Contains | Starts | Draws | Varies | Fails | Lasts | Ends
+    | Succeeds | Rewards | Counts | Teaches
 )  # fmt: skip
 
 

@@ -95,6 +95,7 @@ class Skill:
     Among a function's outputs number i belongs to the i-th edge without `at`. One that is `frozen` is not taught. One
     that is `like` another has the same function, which sends the same, and shares its weights for ever. One that
     `chooses` sends 1 over the influence that is greatest before the clamp, of equals the first, and 0 over its others.
+    `files` are the paths of those that its procedure uses, in rising order, below the folder of the mind.
     """
 
     name: str
@@ -104,6 +105,7 @@ class Skill:
     frozen: bool = False
     like: str = ""
     chooses: bool = left_out(False)
+    files: tuple[str, ...] = left_out(())
 
     @property
     def owner(self) -> str:

@@ -8,6 +8,7 @@ from math import prod
 from mindrun.graph.draws import MAX_VALUES
 from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task, varied_quantity
 from mindrun.graph.tasks import varied_kind
+from mindrun.kinds.functions.procedure import is_inside
 from mindrun.kinds.registry import arguments
 from mindrun.kinds.sensors.sensor import directions
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ROBOT
@@ -114,6 +115,10 @@ def _skill_flaws(graph: Graph, number: int, skill: Skill, width: int) -> Iterato
         yield "has influence over what is not there"
     if skill.chooses and all(edge.to != "skill" for edge in skill.edges):
         yield "has nothing to choose"
+    if skill.files and (skill.function.calls is None or not all(map(is_inside, skill.files))):
+        yield "uses files that cannot be its"
+    if skill.files != tuple(sorted({*skill.files})):
+        yield "uses a file twice"
 
 
 def _likeness_flaws(graph: Graph) -> Iterator[str]:
