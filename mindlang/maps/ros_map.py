@@ -142,7 +142,7 @@ def _squares(
         y = corner[1] + metres * (is_free.shape[0] - top - high * many / 2)
         of = f"; one is wall where any of its {many} x {many} pixels is" if many > 1 else ""
         unknown = int((~floor & (walls == 0)).sum())
-        said = (
+        said: tuple[str, ...] = (
             f"{head}, of which {right - left} x {low - top} are not outside",
             f"{wide} x {high} squares of {CM * metres * many:g} cm{of}",
             f"0 0 of the world is {x:.3f} {y:.3f} m of the map",

@@ -68,11 +68,17 @@ def load(calls: str, sources: Sources) -> Callable[..., Any]:
 def _folder_of(files: tuple[tuple[str, bytes], ...]) -> Path:
     """A new folder with these files, which is there until this process ends: the same wherever a mind runs."""
     folder, process = Path(mkdtemp(prefix="mind-files-")), os.getpid()
-    finalize(RunningProcedure, lambda: os.getpid() == process and rmtree(folder, ignore_errors=True))
+    finalize(RunningProcedure, _remove, folder, process)
     for name, data in files:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_bytes(data)
     return folder
+
+
+def _remove(folder: Path, process: int) -> None:
+    """Remove a folder at the end of the process that made it, and of none that it forked."""
+    if os.getpid() == process:
+        rmtree(folder, ignore_errors=True)
 
 
 @lru_cache(64)
