@@ -6,7 +6,7 @@ from mindrun.errors import MindError
 from mindrun.kinds.things.map import FLOOR, MAX_MAP_CELLS, START, WALL, Map
 from mindrun.kinds.things.thing import MAX_OBSTACLES
 
-CM = 100.0  # in a metre
+METRE_CM = 100.0
 
 
 class MapError(MindError):
@@ -31,7 +31,7 @@ class MapText:
         """Lines of a mind in which the map, called so, stands with what its letters place; a square is one unit."""
         letters = sorted({each for line in self.lines for each in line} - {WALL, FLOOR, START})
         return (
-            f"unit {CM * self.cell:.6g} cm",
+            f"unit {METRE_CM * self.cell:.6g} cm",
             f"scene Walled is arena size {len(self.lines[0])} {len(self.lines)}",
             f'  contains walls is map from "{name}" cell 1',
             *(f"  contains {'goal' if each in 'gG' else each.lower()} is zone size 1" for each in letters),

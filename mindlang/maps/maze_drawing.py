@@ -10,7 +10,7 @@ from mindrun.files.regular_files import read_regular
 from mindrun.kinds.things.map import FLOOR, WALL
 
 from mindlang.compiler.source import MAX_SOURCE_BYTES, decode_source
-from mindlang.maps.map_text import CM, MapError, MapText
+from mindlang.maps.map_text import METRE_CM, MapError, MapText
 
 POSTS, GAP = "+o", " "
 CLASSIC_CELLS = 16  # along a side of a maze whose cells are 18 cm wide; those of a larger one are half as wide
@@ -121,7 +121,7 @@ class _Drawing:
         places = [f"{mark} in cell {column + 1}, {self.rows - row}" for (row, column), mark in letters.items()
                   if many[mark] == 1]  # fmt: skip
         places += [f"{mark} in {count} cells" for mark, count in many.items() if count > 1]
-        side, wall = CM * cell, CM * CLASSIC_WALL_METRES * cell / CLASSIC_METRES
+        side, wall = METRE_CM * cell, METRE_CM * CLASSIC_WALL_METRES * cell / CLASSIC_METRES
         return (
             f"{self.columns} x {self.rows} cells; {', '.join(sorted(places, reverse=True)) or 'no letter in any'}",
             f"a cell is taken to be {side:g} cm wide: a drawing has no measure",

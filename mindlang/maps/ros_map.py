@@ -13,13 +13,13 @@ from mindrun.files.regular_files import read_whole
 from mindrun.kinds.things.map import FLOOR, WALL
 from numpy.typing import NDArray
 
-from mindlang.maps.map_text import CM, MapError, MapText
+from mindlang.maps.map_text import METRE_CM, MapError, MapText
 
 MAX_YAML_BYTES = 64 << 10
 MAX_IMAGE_BYTES = 64 << 20
 MAX_PIXELS = 1 << 24  # 4096 by 4096; a file of a few bytes may say that it has more
-MAX_COARSENESS = 64  # pixels along a side of a square
-METRES = (1e-4, 100.0)  # that a pixel may be wide
+MAX_SQUARE_PIXELS = 64  # along a side
+PIXEL_METRES = (1e-4, 100.0)  # that a pixel may be wide
 PGM = re.compile(rb"P([25])(?:\s|#[^\n]*\n)+(\d{1,9})(?:\s|#[^\n]*\n)+(\d{1,9})(?:\s|#[^\n]*\n)+(\d{1,5})\s")
 PNG = re.compile(rb"\x89PNG\r\n\x1a\n.{4}IHDR(.{4})(.{4})", re.S)
 FORM = "A map of ROS has image, resolution, origin, negate, occupied_thresh, free_thresh."
@@ -28,7 +28,7 @@ FORM = "A map of ROS has image, resolution, origin, negate, occupied_thresh, fre
 def read_ros_map(path: Path) -> MapText:
     """The map that a YAML file of ROS describes; MapError says what is wrong with it, or with its picture."""
     said = _yaml(path)
-    metres = _number(path, said, "resolution", *METRES)
+    metres = _number(path, said, "resolution", *PIXEL_METRES)
     occupied, free = (_number(path, said, f"{each}_thresh", 0.0, 1.0) for each in ("occupied", "free"))
     negate, origin = _number(path, said, "negate", 0, 1), said.get("origin")
     if free > occupied:
@@ -48,7 +48,7 @@ def read_ros_map(path: Path) -> MapText:
     if not is_free.any():
         hint = "Free is what is brighter than 1 - free_thresh; with negate 1 what is darker than free_thresh."
         raise MapError(f"{path}: no pixel of {image} is free.", hint)
-    head = f"{dark.shape[1]} x {dark.shape[0]} pixels of {CM * metres:g} cm"
+    head = f"{dark.shape[1]} x {dark.shape[0]} pixels of {METRE_CM * metres:g} cm"
     return _squares(path, is_free, is_occupied, metres, (x - metres, y - metres), head, yaw)
 
 
@@ -130,7 +130,7 @@ def _squares(
     rows, columns = (np.flatnonzero(is_free.any(axis)) for axis in (1, 0))
     top, left, low, right = rows[0] - 1, columns[0] - 1, rows[-1] + 2, columns[-1] + 2  # with what is around it
     cut = np.stack([is_free, is_occupied])[:, top:low, left:right]
-    for many in range(1, MAX_COARSENESS + 1):
+    for many in range(1, MAX_SQUARE_PIXELS + 1):
         high, wide = (ceil(each / many) for each in cut.shape[1:])
         filled = np.pad(cut, ((0, 0), (0, high * many - cut.shape[1]), (0, wide * many - cut.shape[2])))
         free, walls = filled.reshape(2, high, many, wide, many).sum((2, 4))
@@ -144,7 +144,7 @@ def _squares(
         unknown = int((~floor & (walls == 0)).sum())
         said: tuple[str, ...] = (
             f"{head}, of which {right - left} x {low - top} are not outside",
-            f"{wide} x {high} squares of {CM * metres * many:g} cm{of}",
+            f"{wide} x {high} squares of {METRE_CM * metres * many:g} cm{of}",
             f"0 0 of the world is {x:.3f} {y:.3f} m of the map",
         )
         said += (f"{unknown} squares of which too little is known are walls",) if unknown else ()

@@ -53,8 +53,7 @@ def _part(noun: str, usual: Mapping[str, tuple[str, ...]], part: Sensor | Actuat
 
 def _lines(noun: str, usual: Mapping[str, tuple[str, ...]], part: Sensor | Actuator, width: int) -> Iterator[str]:
     kind = names()[type(part.kind)]
-    many = f", {width} readings" if width > 1 else ""
-    yield f"# {kind}{many}: mindc explain {kind}"
+    yield f"# {kind}" + (f", {width} readings" if width > 1 else "")
     yield f"{part.name}:"
     if kind not in usual:
         yield f"  driver:  # your own, FILE.CLASS or PACKAGE.NAME, or one of {', '.join(sorted(drivers(noun)))}"
