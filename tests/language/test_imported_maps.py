@@ -18,6 +18,7 @@ from mindlang.compiler.compile import load
 from mindlang.maps.map_text import MapError
 from mindlang.maps.maze_drawing import read_maze
 from mindlang.maps.ros_map import read_ros_map
+from tests.language.examples import ROOT
 
 MAZE = """
   o---o---o
@@ -166,3 +167,13 @@ def test_one_sentence_for_a_maze_that_is_none(tmp_path: Path, said: str, text: s
     (tmp_path / "maze.txt").write_text(text)
     with pytest.raises(MapError, match=said):
         read_maze(tmp_path / "maze.txt")
+
+
+@pytest.mark.parametrize(
+    ("file", "walls"),
+    [("maze.txt", "walls.txt"), ("practice.txt", "practice_walls.txt"), ("hall.yaml", "hall_walls.txt")],
+)
+def test_the_maps_of_the_example_are_those_that_are_imported(file: str, walls: str) -> None:
+    folder = ROOT / "examples" / "micromouse"
+    found = (read_ros_map if file.endswith("yaml") else read_maze)(folder / file)
+    assert (folder / walls).read_text(encoding="utf-8").splitlines() == [*found.lines]
