@@ -74,17 +74,12 @@ class _Drawing:
                 may_be = "" if is_below or x > self.columns * self.wide else self._marks(x, y)
                 if mark != GAP and mark not in may_be and not (may_be == GAP and mark.isalpha()):
                     where = f"line {y + self.above + 1}, column {x + self.left + 1}"
-                    raise MapError(f"{self.path} has {mark!r} in {where}, where {self._meant(may_be)} stands.", FORM)
+                    raise MapError(f"{self.path} has {mark!r} in {where}, where it cannot stand.", FORM)
 
     def _marks(self, x: int, y: int) -> str:
         if x % self.wide:
             return GAP if y % self.high else "-"
         return "|" if y % self.high else POSTS
-
-    @staticmethod
-    def _meant(may_be: str) -> str:
-        words = {"": "nothing", GAP: "a letter or nothing", POSTS: "a post", "-": "- or nothing", "|": "| or nothing"}
-        return words[may_be]
 
     def letters(self) -> dict[Cell, str]:
         """The letter in each cell that has one, S and G as capitals; MapError where it has several."""
@@ -93,7 +88,7 @@ class _Drawing:
             x, y = column * self.wide + 1, row * self.high + 1
             marks = "".join(line[x : x + self.wide - 1] for line in self.lines[y : y + self.high - 1]).replace(GAP, "")
             if len(marks) > 1:
-                where = f"line {y + self.above}, column {x + self.left}"
+                where = f"line {y + self.above + 1}, column {x + self.left + 1}"
                 raise MapError(f"{self.path} has {marks} in one cell ({where}).", "Write one letter, or none.")
             if marks:
                 found[row, column] = marks.upper() if marks in "sg" else marks

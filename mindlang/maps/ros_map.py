@@ -1,16 +1,16 @@
 """Maps of ROS: a YAML file as map_server reads it, and the picture beside it, PGM or PNG, a pixel a place."""
 
 import re
-from collections.abc import Mapping
-from math import ceil, degrees, isfinite
+from math import ceil, degrees
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Literal
 
 import numpy as np
 import yaml
 from mindrun.errors import reason
 from mindrun.files.regular_files import read_whole
 from mindrun.kinds.things.map import FLOOR, WALL
+from msgspec import Meta, Struct, ValidationError, convert
 from numpy.typing import NDArray
 
 from mindlang.maps.map_text import METRE_CM, MapError, MapText
@@ -19,61 +19,50 @@ MAX_YAML_BYTES = 64 << 10
 MAX_IMAGE_BYTES = 64 << 20
 MAX_PIXELS = 1 << 24  # 4096 by 4096; a file of a few bytes may say that it has more
 MAX_SQUARE_PIXELS = 64  # along a side
-PIXEL_METRES = (1e-4, 100.0)  # that a pixel may be wide
 PGM = re.compile(rb"P([25])(?:\s|#[^\n]*\n)+(\d{1,9})(?:\s|#[^\n]*\n)+(\d{1,9})(?:\s|#[^\n]*\n)+(\d{1,5})\s")
 PNG = re.compile(rb"\x89PNG\r\n\x1a\n.{4}IHDR(.{4})(.{4})", re.S)
 FORM = "A map of ROS has image, resolution, origin, negate, occupied_thresh, free_thresh."
+
+Share = Annotated[float, Meta(ge=0, le=1)]
+Coordinate = Annotated[float, Meta(ge=-1e6, le=1e6)]
+
+
+class RosMap(Struct, frozen=True):
+    """The YAML file of a map: a pixel is `resolution` metres wide, the lower left one at `origin`, with an angle."""
+
+    image: Annotated[str, Meta(min_length=1)]
+    resolution: Annotated[float, Meta(ge=1e-4, le=100)]
+    origin: tuple[Coordinate, Coordinate, Coordinate]
+    negate: Literal[0, 1]
+    occupied_thresh: Share
+    free_thresh: Share
+    mode: Literal["trinary", "scale"] = "trinary"
 
 
 def read_ros_map(path: Path) -> MapText:
     """The map that a YAML file of ROS describes; MapError says what is wrong with it, or with its picture."""
     said = _yaml(path)
-    metres = _number(path, said, "resolution", *PIXEL_METRES)
-    occupied, free = (_number(path, said, f"{each}_thresh", 0.0, 1.0) for each in ("occupied", "free"))
-    negate, origin = _number(path, said, "negate", 0, 1), said.get("origin")
-    if free > occupied:
+    if said.free_thresh > said.occupied_thresh:
         raise MapError(f"{path}: free_thresh is above occupied_thresh, so a pixel could be both.")
-    if (mode := said.get("mode", "trinary")) not in ("trinary", "scale"):
-        raise MapError(f"{path}: mode {mode} is unknown here.", "Save the map with mode: trinary.")
-    if not (isinstance(origin, list) and len(origin) == 3):
-        raise MapError(f"{path}: origin is no list of x, y and an angle.", "Write origin: [0.0, 0.0, 0.0].")
-    x, y, yaw = (_number(path, {"origin": each}, "origin", -1e6, 1e6) for each in origin)
-    image = said.get("image")
-    if not isinstance(image, str) or not image or "\0" in image:
-        raise MapError(f"{path} does not say which picture is its image.", FORM)
-    dark = _brightness(path.parent / image)
-    dark = dark if negate else 1 - dark
+    brightness = _brightness(path.parent / said.image)
+    dark = brightness if said.negate else 1 - brightness
     # Beyond its edge nothing is known.
-    is_free, is_occupied = (np.pad(each, 1) for each in (dark < free, dark > occupied))
+    is_free, is_occupied = (np.pad(each, 1) for each in (dark < said.free_thresh, dark > said.occupied_thresh))
     if not is_free.any():
         hint = "Free is what is brighter than 1 - free_thresh; with negate 1 what is darker than free_thresh."
-        raise MapError(f"{path}: no pixel of {image} is free.", hint)
-    head = f"{dark.shape[1]} x {dark.shape[0]} pixels of {METRE_CM * metres:g} cm"
-    return _squares(path, is_free, is_occupied, metres, (x - metres, y - metres), head, yaw)
+        raise MapError(f"{path}: no pixel of {said.image} is free.", hint)
+    return _squares(path, said, is_free, is_occupied)
 
 
-def _yaml(path: Path) -> Mapping[str, Any]:
+def _yaml(path: Path) -> RosMap:
     try:
-        said = yaml.safe_load(read_whole(path, MAX_YAML_BYTES))
+        return convert(yaml.safe_load(read_whole(path, MAX_YAML_BYTES)), RosMap, strict=False)
     except OSError as error:
         raise MapError(f"{path} cannot be read: {reason(error)}.") from error
+    except ValidationError as error:
+        raise MapError(f"{path} is no map of ROS: {error}.", FORM) from error
     except (yaml.YAMLError, ValueError, RecursionError, OverflowError) as error:
         raise MapError(f"{path} is no YAML.", FORM) from error
-    if not isinstance(said, dict):
-        raise MapError(f"{path} describes no map of ROS.", FORM)
-    return said
-
-
-def _number(path: Path, said: Mapping[str, Any], key: str, low: float, high: float) -> float:
-    try:
-        number = float(said[key])
-    except KeyError:
-        raise MapError(f"{path} does not say {key}.", FORM) from None
-    except (TypeError, ValueError, OverflowError):
-        number = float("nan")
-    if isfinite(number) and low <= number <= high:
-        return number
-    raise MapError(f"{path}: {key} is {str(said[key])[:40]}, and no number from {low:g} to {high:g}.", FORM)
 
 
 def _brightness(path: Path) -> NDArray[np.float32]:
@@ -117,19 +106,11 @@ def _of_png(data: bytes) -> NDArray[np.float32] | None:
     return None if pixels is None else (pixels / np.float32(255)).astype(np.float32)
 
 
-def _squares(
-    path: Path,
-    is_free: NDArray[np.bool_],
-    is_occupied: NDArray[np.bool_],
-    metres: float,
-    corner: tuple[float, float],
-    head: str,
-    yaw: float,
-) -> MapText:
-    """The map of squares that are as small as a world takes; `corner` is where the lower left one begins, in metres."""
+def _squares(path: Path, said: RosMap, is_free: NDArray[np.bool_], is_occupied: NDArray[np.bool_]) -> MapText:
+    """The map of squares that are as small as a world takes, of pixels with one more around them."""
     rows, columns = (np.flatnonzero(is_free.any(axis)) for axis in (1, 0))
     top, left, low, right = rows[0] - 1, columns[0] - 1, rows[-1] + 2, columns[-1] + 2  # with what is around it
-    cut = np.stack([is_free, is_occupied])[:, top:low, left:right]
+    cut, metres = np.stack([is_free, is_occupied])[:, top:low, left:right], said.resolution
     for many in range(1, MAX_SQUARE_PIXELS + 1):
         high, wide = (ceil(each / many) for each in cut.shape[1:])
         filled = np.pad(cut, ((0, 0), (0, high * many - cut.shape[1]), (0, wide * many - cut.shape[2])))
@@ -138,18 +119,19 @@ def _squares(
         if not floor.any():
             break
         lines = tuple("".join(FLOOR if each else WALL for each in row) for row in floor)
-        x = corner[0] + metres * (left + wide * many / 2)
-        y = corner[1] + metres * (is_free.shape[0] - top - high * many / 2)
+        x = said.origin[0] + metres * (left - 1 + wide * many / 2)
+        y = said.origin[1] + metres * (is_free.shape[0] - 1 - top - high * many / 2)
         of = f"; one is wall where any of its {many} x {many} pixels is" if many > 1 else ""
-        unknown = int((~floor & (walls == 0)).sum())
-        said: tuple[str, ...] = (
-            f"{head}, of which {right - left} x {low - top} are not outside",
+        told = [
+            f"{is_free.shape[1] - 2} x {is_free.shape[0] - 2} pixels of {METRE_CM * metres:g} cm; "
+            f"what is free lies in {right - left - 2} x {low - top - 2} of them",
             f"{wide} x {high} squares of {METRE_CM * metres * many:g} cm{of}",
             f"0 0 of the world is {x:.3f} {y:.3f} m of the map",
-        )
-        said += (f"{unknown} squares of which too little is known are walls",) if unknown else ()
-        said += (f"the map is turned by {degrees(yaw):.4g} deg, the world is not",) if yaw else ()
-        found = MapText(lines, metres * many, said)
-        if found.fits:
+        ]
+        if unknown := int((~floor & (walls == 0)).sum()):
+            told.append(f"{unknown} squares of which too little is known are walls")
+        if said.origin[2]:
+            told.append(f"the map is turned by {degrees(said.origin[2]):.4g} deg, the world is not")
+        if (found := MapText(lines, metres * many, tuple(told))).fits:
             return found
     raise MapError(f"{path} has more walls than a world takes, however coarse.", "Cut a part out of it.")

@@ -131,11 +131,11 @@ FOUR = struct.pack(">II", 4, 4)
 BOMB = b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sIIBBBBBI", 13, b"IHDR", 60000, 60000, 8, 0, 0, 0, 0, 0)
 WRONG = {
     "no YAML": as_yaml("a: ["),
-    "describes no map": as_yaml("- 1"),
-    "does not say free_thresh": as_yaml("resolution: 1\noccupied_thresh: 0.5\n"),
-    "resolution is nan": as_yaml(YAML.format("hall.pgm").replace("0.05", ".nan")),
+    "is no map of ROS: Expected": as_yaml("- 1"),
+    "required field `free_thresh`": as_yaml(YAML.format("hall.pgm").replace("free_thresh", "free")),
+    r"0.0001 - at `\$.resolution`": as_yaml(YAML.format("hall.pgm").replace("0.05", ".nan")),
     "free_thresh is above": as_yaml(YAML.format("hall.pgm").replace("0.65", "0.1")),
-    "mode raw is unknown": as_yaml(YAML.format("hall.pgm") + "mode: raw\n"),
+    "invalid|Invalid": as_yaml(YAML.format("hall.pgm") + "mode: raw\n"),
     "gone.pgm cannot be read: No such file": as_yaml(YAML.format("gone.pgm")),
     "no pixel of hall.pgm is free": as_yaml(YAML.format("hall.pgm").replace("negate: 0", "negate: 1")),
     "60000 x 60000 pixels": as_picture(BOMB, "hall.png"),
@@ -160,7 +160,7 @@ def test_one_sentence_for_a_map_of_ros_that_is_none(tmp_path: Path, said: str) -
         ("'3' in line 3, column 3", "\n+---+\n| 3 |\n+---+\n"),
         ("'x' in line 1, column 3", "+-x-+\n|   |\n+---+\n"),
         ("'a' in line 4, column 1", "+---+\n|   |\n+---+\na\n"),
-        ("ab in one cell", "+---+\n|a b|\n+---+\n"),
+        (r"ab in one cell \(line 2, column 2\)", "+---+\n|a b|\n+---+\n"),
     ],
 )
 def test_one_sentence_for_a_maze_that_is_none(tmp_path: Path, said: str, text: str) -> None:
