@@ -334,9 +334,10 @@ def _skills(draw: st.DrawFn, name: str, width: int, targets: list[tuple[str, int
         edges.append(replace(edge, gate=gate, cuts=cuts, over=tuple(sorted(over))))
     called = Procedure(f"own.send{outputs}") if function is CALLED else function
     chooses = any(edge.to == "skill" for edge in edges) and draw(st.integers(0, 3)) == 0
-    promises = draw(st.lists(_promises(range(width)), max_size=3)) if draw(st.integers(0, 3)) == 0 else ()
+    promises = tuple(draw(st.lists(_promises(range(width)), max_size=3)) if draw(st.integers(0, 3)) == 0 else ())
+    files = ("own.py",) if function is CALLED and draw(st.booleans()) else ()
     frozen = draw(st.booleans())
-    return Skill(name, called, inputs, tuple(edges), frozen=frozen, chooses=chooses, promises=tuple(promises))
+    return Skill(name, called, inputs, tuple(edges), frozen, chooses=chooses, promises=promises, files=files)
 
 
 @st.composite

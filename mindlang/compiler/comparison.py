@@ -150,7 +150,7 @@ def _parts(header: syntax.Header, of: Any) -> tuple[Any, dict[str, Sequence[Any]
             instead = [(syntax.verb_of(f), f.name.text, f.stands_for and f.stands_for.text) for f in lines]
             return like, {"reads drives influences": instead, **_promised(of)}
         case Skill():
-            how = {"chooses": [True] * of.chooses, "stays": [True] * of.frozen}
+            how = {"chooses": [True] * of.chooses, "stays": [True] * of.frozen, "uses": of.files}
             return of.function, {"reads": of.reads, "drives influences": of.edges, **how, **_promised(of)}
         case Task():
             starts = [of.start] * bool(syntax.of_form(of.facts, syntax.Starts))

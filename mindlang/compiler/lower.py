@@ -67,9 +67,8 @@ def _skills(mind: model.Mind, readings: Mapping[str, tuple[int, int]]) -> Iterat
         places = [start + i for start, width in (readings[name] for name in skill.reads) for i in range(width)]
         edges = tuple(_edges(skill, numbers, Places(readings)))
         promises = tuple(_promise(each, Places(readings)) for each in skill.promises)
-        yield graph.Skill(
-            skill.name, skill.function, tuple(places), edges, skill.frozen, skill.like, skill.chooses, promises
-        )
+        said = skill.frozen, skill.like, skill.chooses, promises, tuple(sorted(skill.files))
+        yield graph.Skill(skill.name, skill.function, tuple(places), edges, *said)
 
 
 def _promise(promise: model.Promise, places: Places) -> graph.Promise:

@@ -89,7 +89,8 @@ class Promise(Struct, frozen=True):
 class Skill(Struct, frozen=True):
     """A skill; `reads` are names of sensors and memories; one that is `frozen` is not taught, one may `chooses` one.
 
-    What it `promises` is of any readings, and changes nothing that is computed.
+    What it `promises` is of any readings, and changes nothing that is computed. `files` are those that its procedure
+    uses.
 
     One that is `like` another has that one's function and weights; what it reads and sends stands in that one's order,
     and the lines of its edges are that one's.
@@ -104,6 +105,7 @@ class Skill(Struct, frozen=True):
     like: str = ""
     chooses: bool = False
     promises: tuple[Promise, ...] = ()
+    files: tuple[str, ...] = ()
 
     @property
     def span(self) -> Span:

@@ -9,11 +9,14 @@ from warnings import catch_warnings
 from mindrun.errors import ProcedureError
 from mindrun.graph.graph import Skill
 from mindrun.graph.procedure_source import is_installed, source_of
+from mindrun.kinds.functions.procedure import used_file
 from mindrun.kinds.procedure_names import imports
 from mindrun.kinds.procedure_text import file_of, parsed
 
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.model import Mind
+from mindlang.compiler.source import Span
+from mindlang.compiler.syntax import Uses, of_form
 
 BESIDE_MINDRUN = {"mindrun", "numpy"}  # modules that are wherever a bundle runs, beside those of Python itself
 BUSY = {"__main__", "antigravity", "idlelib", "test", "this", "turtledemo"}  # modules of Python that do something
@@ -24,22 +27,31 @@ def mistakes(skills: Iterable[Skill], mind: Mind, folder: Path) -> Iterator[Diag
 
     That something is not installed here is a warning: it may be on the robot.
     """
-    declared = {skill.name: skill.declaration.header for skill in mind.skills}
+    declared = {skill.name: skill.declaration for skill in mind.skills}
     for skill in skills:
         if skill.function.calls is None:
             continue
-        header = declared[skill.name]
+        header = declared[skill.name].header
         span = header.phrase.span if header.phrase else header.name.span
         try:
             source_of(skill, folder)
         except ProcedureError as error:
-            text = str(error)
-            yield Diagnostic("faulty-procedure", f"{text[0].upper()}{text[1:]}.", span, error.hint)
+            yield _faulty(error, span)
             continue
+        for fact in of_form(declared[skill.name].facts, Uses):
+            try:
+                used_file(skill.function.calls, fact.file.text, folder)
+            except ProcedureError as error:
+                yield _faulty(error, fact.file.span)
         for said, mend in _absent(skill, folder):
             message = f"Procedure from {skill.function.calls}: imports {said}."
             hint = f"Without it {skill.name} runs neither here nor on a robot: {mend}."
             yield Diagnostic("faulty-procedure", message, span, hint, severity="warning")
+
+
+def _faulty(error: ProcedureError, span: Span) -> Diagnostic:
+    text = str(error)
+    return Diagnostic("faulty-procedure", f"{text[0].upper()}{text[1:]}.", span, error.hint)
 
 
 def needed_modules(skills: Iterable[Skill], folder: Path) -> dict[str, str]:

@@ -13,8 +13,8 @@ PARTS = ("sensor", "actuator", "memory")
 WHOLES = ("body", "skill", "curriculum", "scene")
 NOUNS = (*PARTS, *WHOLES, "task")
 VERBS = (
-    "reads", "drives", "influences", "chooses", "stays", "requires", "maintains", "achieves", "contains", "starts",
-    "draws", "varies", "fails", "lasts", "ends", "succeeds", "rewards", "counts", "teaches",
+    "reads", "drives", "influences", "chooses", "stays", "uses", "requires", "maintains", "achieves", "contains",
+    "starts", "draws", "varies", "fails", "lasts", "ends", "succeeds", "rewards", "counts", "teaches",
 )  # fmt: skip
 SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
 
@@ -228,6 +228,13 @@ class Stays(Struct, frozen=True):
     span: Span
 
 
+class Uses(Struct, frozen=True):
+    """`uses "PATH"`: a file of the procedure"""
+
+    file: Text
+    span: Span
+
+
 class Promise(When, frozen=True):
     """A condition that a skill promises: that it requires, maintains or achieves."""
 
@@ -359,7 +366,8 @@ class Teaches(Struct, frozen=True):
 
 
 Fact = (
-    Reads | Drives | Influences | Chooses | Stays | Promise | Contains | Starts | Draws | Varies | Fails | Lasts | Ends
+    Reads | Drives | Influences | Chooses | Stays | Uses | Promise | Contains | Starts | Draws | Varies | Fails | Lasts
+    | Ends
     | Succeeds | Rewards | Counts | Teaches
 )  # fmt: skip
 

@@ -23,6 +23,7 @@ from mindrun.graph.bundle import Bundle, pack, unpack
 from mindrun.graph.graph import Task
 from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores
+from mindrun.kinds.procedure_text import FILES
 from mindrun.train.attempt import Segment, Stretch, advance
 from mindrun.train.lesson_state import Course
 from mindrun.train.population import Genomes
@@ -123,10 +124,11 @@ def rollout_of(assignment: Assignment, threads: int) -> "Rollout":
     rollout_for = import_module("mindrun.sim.rollouts").rollout_for
     bundle = unpack(assignment.bundle)
     with tempfile.TemporaryDirectory(prefix="mind-work-") as folder:
-        for module, text in bundle.procedures.items():
-            path = Path(folder, *module.split(".")).with_suffix(".py")
+        for name, content in bundle.procedures.items():
+            is_text = isinstance(content, str)
+            path = Path(folder, f"{name.replace('.', '/')}.py" if is_text else name.removeprefix(FILES))
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8")
+            path.write_bytes(content.encode() if isinstance(content, str) else content)
         cast = bundle.policy, assignment.task, assignment.master, assignment.learners
         rollout: Rollout = rollout_for(*cast, procedures=Path(folder), interrupt=assignment.interrupt, workers=threads)
         rollout.compile()

@@ -44,7 +44,8 @@ ARGUMENTS: tuple[Any, ...] = (
     list[list[tuple[Number, Number]]],
     list[tuple[str, str | Number]],  # an expression over readings, of words with a number or a name each
 )
-NAMED = {**dict.fromkeys(("actuator", "memory", "sensor", "thing"), KindForm), "skill": dict[str, str | list[str]]}
+SKILL = dict[str, str | list[str] | dict[str, str]]  # the files that a procedure uses have a hash each
+NAMED = {**dict.fromkeys(("actuator", "memory", "sensor", "thing"), KindForm), "skill": SKILL}
 FORMS = {
     "tick": Annotated[float, Meta(gt=0, lt=1e300)],
     "claw": Number,

@@ -81,6 +81,9 @@ def _are_one_direction(old: Any, now: Any) -> bool:
 def _skill_changes(name: str, old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
     if old.get("text") != now.get("text") and old.get("text") and now.get("text"):
         yield f"the text of {name}'s procedure has changed"
+    had, has = old.get("files", {}), now.get("files", {})
+    changed = (file for file in had if had[file] != has.get(file) and had[file] and has.get(file))
+    yield from (f"{file}, which {name} uses, has changed" for file in changed)
     before, after = _skill_words(old), _skill_words(now)
     gone, new = ", ".join(sorted((before - after).elements())), ", ".join(sorted((after - before).elements()))
     if gone and new:

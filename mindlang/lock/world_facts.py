@@ -18,7 +18,7 @@ from mindrun.graph.graph import Edge, Graph, Lesson, Program, Reward, Skill, Sta
 from mindrun.graph.skill_sets import genes, reachable
 from mindrun.graph.tasks import physics
 from mindrun.kinds.environment import module_beside
-from mindrun.kinds.functions.procedure import module_source
+from mindrun.kinds.functions.procedure import module_source, used_file
 from mindrun.kinds.registry import arguments, kinds, later_fields, names
 from mindrun.numbers.expression import TRUTHS, fold, leaves
 from mindrun.numbers.quantity import EXPRESSION, FARTHEST_UNITS, UNSAID, Quantity, Reference
@@ -140,7 +140,9 @@ class Worlds:
         if skill.function.calls is None:
             return {"is": names()[type(skill.function)], "reads": sorted(reads), **sends}
         answers = [self.graph.named(edge.to, edge.target) for edge in skill.edges if edge.output is not None]
-        function = {"is": f"procedure from {skill.function.calls}", "text": self._text(skill.function.calls)}
+        calls = skill.function.calls
+        function: dict[str, Any] = {"is": f"procedure from {calls}", "text": self._hash(calls)}
+        function |= {"files": {name: self._hash(calls, name) for name in skill.files}} if skill.files else {}
         return {**function, "reads": reads, "answers": answers, **sends}
 
     def _sends(self, edge: Edge) -> str:
@@ -165,13 +167,15 @@ class Worlds:
         }
         return instead if instead["sends to"] else {"reads": instead["reads"]}
 
-    def _text(self, calls: str) -> str:
-        """A hash of a procedure's module; empty where it does not count or cannot be read."""
+    def _hash(self, calls: str, file: str = "") -> str:
+        """A hash of a procedure's module, or of its file; empty where it does not count or cannot be read."""
+        if not self.folder:
+            return ""
         try:
-            text = module_source(calls, self.folder) if self.folder else ""
+            data = used_file(calls, file, self.folder) if file else module_source(calls, self.folder).encode()
         except ProcedureError:
-            text = ""
-        return sha256(text.encode()).hexdigest() if text else ""
+            data = b""
+        return sha256(data).hexdigest() if data else ""
 
     def _ends(self, task: Task, succeeds: bool) -> Iterator[str]:
         """The ends of a run: those that are a success, or those that are none."""

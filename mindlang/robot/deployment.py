@@ -53,7 +53,8 @@ def check_deployable(bundle: Bundle, with_service: bool) -> None:
     for skill in reachable(bundle.graph, bundle.graph.master):
         if (calls := skill.function.calls) is not None:
             try:
-                fit(calls, bundle.procedures.get(module_of(calls), ""), len(skill.inputs), skill.outputs)
+                text = str(bundle.procedures.get(module_of(calls), ""))
+                fit(calls, text, len(skill.inputs), skill.outputs, bool(skill.files))
             except ProcedureError as error:
                 raise DeployError(f"{error}.", error.hint or "Mend it, and build the bundle anew.") from error
     if with_service and bundle.wiring is None:

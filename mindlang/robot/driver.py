@@ -84,7 +84,7 @@ def wired(noun: str, name: Scalar, table: Table, findings: Findings) -> Wired | 
     own = {option.key: option for option in own_options(noun)}
     its = {option.key: option for option in cls.options}
     others = {key: entry for key, entry in table.entries.items() if key != DRIVER}
-    needed = {option.key: _example(option) for option in cls.options if option.required}
+    needed = {option.key: example(option) for option in cls.options if option.required}
     what = f"The driver {driver.text}"
     check_keys(replace(table, entries=others), driver.span, what, [*its, *own], needed, findings)
     values = by_option(others.values(), its, findings)
@@ -134,7 +134,8 @@ def _class(noun: str, name: Scalar, table: Table, findings: Findings) -> DriverC
     return None
 
 
-def _example(option: DriverOption) -> str:
+def example(option: DriverOption) -> str:
+    """The form of an option's value, with … where the value stands."""
     match option.type:
         case _ if option.shape == "flag":
             return "true"

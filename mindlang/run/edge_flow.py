@@ -13,6 +13,7 @@ from mindrun.graph.graph import Sink as Sink
 from mindrun.graph.policy import Policy
 from mindrun.graph.scopes import influence_scopes
 from mindrun.kinds.functions.function import Stateful
+from mindrun.kinds.procedure_text import Sources
 from numpy.typing import NDArray
 
 Singles = NDArray[np.float32]
@@ -210,7 +211,7 @@ def _numbers(skill: ReadySkill, readings: Singles) -> list[np.float32]:
 
 
 def edge_flows(
-    policy: Policy, sources: Mapping[str, str], master: str, run: ReadingsAndInfluence, begins: Container[int] = ()
+    policy: Policy, sources: Sources, master: str, run: ReadingsAndInfluence, begins: Container[int] = ()
 ) -> EdgeFlows:
     """The flows of a run that is over; WeightsError or ProcedureError where a skill cannot be made ready."""
 

@@ -54,6 +54,15 @@ def _wiring(robot: Robot, task: Task) -> str:
     """The text of robot.yaml: the wiring of all that the task needs, and of what moves the robot."""
     sensors = _joined(part.wiring for part in _needed(robot.sense, task))
     actuators = _joined(part.wiring for part in (robot, *_needed(robot.act, task)))
+    return _with_parts(sensors, actuators)
+
+
+def wiring_file(name: str, sensors: str, actuators: str) -> str:
+    """The text of the robot.yaml of NAME.mind, with these lines below sensors and actuators."""
+    return Template(_with_parts(sensors, actuators)).safe_substitute(name=name)
+
+
+def _with_parts(sensors: str, actuators: str) -> str:
     return _text("robot.yaml").replace("$sensors\n", sensors).replace("$actuators\n", actuators)
 
 

@@ -1,12 +1,14 @@
 """Procedures: Python functions inside a mind, and all they can do wrong."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from mindrun.engine.engine import Engine, procedure_sources
-from mindrun.errors import ProcedureError
+from mindrun.errors import BundleError, ProcedureError
+from mindrun.graph.bundle import Bundle, pack, unpack
 from mindrun.graph.policy import Policy
-from mindrun.kinds.functions.procedure import Procedure
+from mindrun.kinds.functions.procedure import Procedure, used_file
 
 from tests.minds import mind, skill
 
@@ -106,3 +108,40 @@ def test_the_procedures_of_a_mind_are_those_below_its_master(tmp_path: Path) -> 
     both = mind(skill("Go", Procedure("claw.grip"), (0,), ("skill", 1)), skill("On", Procedure("arm.grip"), (0,)))
     assert set(procedure_sources(both, tmp_path)) == {"claw", "arm"}
     assert procedure_sources(both, tmp_path, "On") == {"arm": "def grip(a): return a  # arm\n"}
+
+
+def test_a_procedure_has_its_files_beside_it_wherever_it_runs(tmp_path: Path) -> None:
+    text = "from pathlib import Path\nGAIN = float((Path(__file__).parent / 'models' / 'gain').read_text())\n"
+    text += "def grip(a, b): return GAIN * a"
+    (tmp_path / "claw.py").write_text(text)
+    (tmp_path / "models").mkdir()
+    (tmp_path / "models" / "gain").write_bytes(b"0.25")
+    go = replace(skill("Go", Procedure("claw.grip"), (0, 1), ("actuator", 0)), files=("models/gain",))
+    policy = Policy(mind(go, readings=2), {})
+    sources = procedure_sources(policy.graph, tmp_path)
+    assert set(sources) == {"claw", "files/models/gain"}
+    data = pack(Bundle(policy, sources))
+    (tmp_path / "models" / "gain").unlink()
+    back = unpack(data)
+    assert pack(back) == data
+    assert Engine(back.policy, back.procedures).tick([1.0, 0.0]).tolist() == [0.25, 0.5]
+    with pytest.raises(ProcedureError, match="models/gain"):
+        procedure_sources(policy.graph, tmp_path)
+    without = Bundle(Policy(mind(replace(go, files=()), readings=2), {}), back.procedures)
+    with pytest.raises(BundleError, match="files that no procedure"):
+        unpack(pack(without))
+
+
+@pytest.mark.parametrize("name", ["/etc/passwd", "../gain", "a/../gain", "./gain", "", "a//b", "a\nb"])
+def test_no_file_outside_of_the_folder_is_used(tmp_path: Path, name: str) -> None:
+    (tmp_path / "gain").write_text("1")
+    with pytest.raises(ProcedureError, match="outside"):
+        used_file("claw.grip", name, tmp_path)
+
+
+def test_no_link_leads_outside(tmp_path: Path) -> None:
+    (tmp_path / "mind").mkdir()
+    (tmp_path / "gain").write_text("1")
+    (tmp_path / "mind" / "gain").symlink_to(tmp_path / "gain")
+    with pytest.raises(ProcedureError, match="outside"):
+        used_file("claw.grip", "gain", tmp_path / "mind")

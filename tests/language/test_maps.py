@@ -92,3 +92,12 @@ def test_an_editor_sees_a_changed_map(tmp_path: Path) -> None:
     assert workspace.mind(main).compiled.graph
     written(tmp_path, MAZE.replace("d", "x"))
     assert not workspace.mind(main).compiled.graph
+
+
+def test_the_robot_starts_at_s_unless_the_task_says_where(tmp_path: Path) -> None:
+    main = written(tmp_path, MAZE.replace("g.d", "GSD"))
+    for says, at in (("", (0.0, 0.0)), ("starts facing 90 deg", (0.0, 0.0)), ("starts at 1 0", (1.0, 0.0))):
+        main.write_text(MIND.replace("cell 4\n", f"cell 4\n  {says}\n"))
+        graph = load(main).graph
+        assert graph
+        assert graph.tasks[0].start.at == at

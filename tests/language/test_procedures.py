@@ -9,6 +9,9 @@ from mindrun.errors import ProcedureError
 from mindrun.kinds.procedure_text import fit
 
 import mindlang
+from mindlang.lock.training_world import LessonKey
+from mindlang.lock.world_changes import changes
+from mindlang.lock.world_facts import Worlds
 from mindlang.server.workspace import view
 from tests.calling import RULES, Call
 
@@ -110,6 +113,39 @@ def test_every_door_says_what_is_wrong(mindc: Call, calling: Path, source: str) 
     assert WRONG[source] in ran.err
     with pytest.raises(ProcedureError):
         mind.engine("Turn")
+
+
+def test_every_door_says_which_file_is_missing(mindc: Call, calling: Path) -> None:
+    calling.write_text(CALLING.replace("turning.turn\n", 'turning.turn\n  uses "policy.onnx"\n'))
+    (calling.parent / "turning.py").write_text(f"FILE = open(__file__), 'policy.onnx'\n{RIGHT}")
+    bundle = calling.parent / "x.bundle"
+    assert (mindc("check", calling).code, mindlang.load(calling).is_valid) == (0, True)
+    assert mindc("build", calling, "-o", bundle, "--master", "Turn").code == 0
+    (calling.parent / "policy.onnx").unlink()
+    mind = mindlang.load(calling)
+    said = [mindc(*words).err + mindc(*words).out for words in (("check", calling), ("lint", calling))]
+    found = *mind.diagnostics, *view(calling, {}).findings
+    said += [each.message for each in found if each.code == "faulty-procedure"]
+    assert ["policy.onnx (No such file or directory)" in each for each in said] == [True] * 4
+    assert mindc("build", calling, "-o", bundle, "--master", "Turn").code == 1
+
+
+def test_a_changed_file_is_another_world(calling: Path) -> None:
+    calling.write_text(CALLING.replace("turning.turn\n", 'turning.turn\n  uses "policy.onnx"\n'))
+    (calling.parent / "turning.py").write_text(RIGHT)
+    (calling.parent / "policy.onnx").write_bytes(b"1")
+    graph, lesson = mindlang.load(calling).graph, LessonKey("Roam", "Turn", False)
+    how = {
+        "from_scratch": True,
+        "task": "Roam",
+        "master": "Turn",
+        "with_subskills": False,
+        "learner": {"is": "genetic"},
+    }
+    before = Worlds(graph, calling.parent).of_gone(lesson, how)
+    (calling.parent / "policy.onnx").write_bytes(b"2")
+    after = Worlds(graph, calling.parent).of_gone(lesson, how)
+    assert changes(before, after) == ["policy.onnx, which Turn uses, has changed"]
 
 
 def test_what_another_skill_calls_is_in_nobodys_way(mindc: Call, calling: Path) -> None:

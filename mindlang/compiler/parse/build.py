@@ -19,6 +19,7 @@ _NUMBER = re.compile(r"([+-]?)[ \t]*([0-9./]+)")
 _FORMS: Mapping[str, type[Struct]] = {
     "master": syntax.Master, "tick": syntax.Tick, "mind": syntax.Version, "unit": syntax.Unit, "number": syntax.Number,
     "reads": syntax.Reads, "gate": syntax.Gate, "chooses": syntax.Chooses, "stays": syntax.Stays,
+    "uses": syntax.Uses,
     "requires": syntax.Requires, "maintains": syntax.Maintains, "achieves": syntax.Achieves,
     "contains": syntax.Contains, "varies": syntax.Varies, "fails": syntax.Fails, "lasts": syntax.Lasts,
     "counts": syntax.Counts, "transmission": syntax.Transmits, "needs": syntax.Needs, "until": syntax.Needs,

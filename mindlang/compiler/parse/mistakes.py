@@ -171,6 +171,8 @@ MISTAKES = (
         'Write use "{bare}".', "use other.mind"),
     Mistake("quoted-path", r"""^\s*use\s+(?P<here>"[^"]*)$""", "The quotes are not closed.", 'Write use "{bare}".',
         'use "other.mind'),
+    Mistake("foreign-fact", r"^\s*(?P<here>uses)\s+(?P<name>[a-z]\w*)\s*$", "What a skill senses it reads.",
+        'Write reads {name}; uses "policy.pt" is for a file of a procedure.', "uses eyes"),
     Mistake("one-name", r"""^\s*use\s+"[^"]*"\s*(?P<here>(?!as\b)\S.*)$""", "A line uses one file, as a whole.",
         "Leave this out; a second file has a line of its own.", 'use "one.mind" "two.mind"'),
     Mistake("small-name", r"""^\s*use\s+"[^"]*"\s*as\s+(?P<here>[A-Z]\w*)""",

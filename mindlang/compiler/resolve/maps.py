@@ -7,19 +7,20 @@ from pathlib import Path
 from mindrun.errors import reason
 from mindrun.files.regular_files import read_regular
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.map import FLOOR, WALL
+from mindrun.kinds.things.map import FLOOR, START, WALL
 from mindrun.numbers.quantity import Place
 from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.model import Thing
-from mindlang.compiler.source import MAX_SOURCE_BYTES, decode_source
-from mindlang.compiler.syntax import Contains, File, Text, Value
+from mindlang.compiler.source import MAX_SOURCE_BYTES, Span, decode_source
+from mindlang.compiler.syntax import Contains, File, Text, Uses, Value, of_form
 
 MAX_SHOWN_LETTERS = 3  # of those that nothing begins with
 PICTURES = re.compile(rb"P[1-6]\s|\x89PNG|\xff\xd8\xff|GIF8|BM")
 ROS = re.compile(r"^\s*(image|resolution|occupied_thresh)\s*:", re.M)
 DRAWING = re.compile(r"[+o]-{2,}[+o]")  # two posts and the wall between them, as those of micromouse contests have
+IMPORT = "mindc import map"
 SQUARES = f"A map is a text: a line for each row of squares, {WALL} where one is wall and {FLOOR} where it is floor"
 
 Things = Sequence[Thing]
@@ -45,17 +46,16 @@ def text_lines(value: Value, root: Path | None, findings: Findings) -> tuple[str
         findings.error("unreadable-map", value.span, f"{value.text} cannot be read{why}.", hint)
         return None
     if PICTURES.match(data):
-        hint = f"{SQUARES}. Make one of its pixels, darker ones {WALL}, and write how wide a pixel is as cell."
+        hint = f"{SQUARES}. {IMPORT} map.yaml makes one of a picture of ROS."
         findings.error("unreadable-map", value.span, f"{value.text} is a picture.", hint)
         return None
     if len({found.group(1) for found in ROS.finditer(text)}) > 1:
         message = f"{value.text} is the YAML file of a map of ROS, and no drawing."
-        hint = f"{SQUARES}. Make one of the pixels of its image, darker ones {WALL}, and write its resolution as cell."
+        hint = f"{SQUARES}. {IMPORT} {value.text} -o walls.txt makes one of it."
         findings.error("unreadable-map", value.span, message, hint)
         return None
     if DRAWING.search(text):
-        hint = f"Leave out every second column, then let + - | become {WALL} and blanks {FLOOR}:"
-        hint = rf"{hint} sed 's/\(.\)./\1/g; s/[-+o|]/{WALL}/g; s/ /{FLOOR}/g'."
+        hint = f"{SQUARES}. {IMPORT} {value.text} -o walls.txt makes one of it."
         findings.error("unreadable-map", value.span, f"{value.text} is a maze drawn with + - |.", hint)
         return None
     return tuple(line.rstrip() for line in text.rstrip().split("\n"))
@@ -70,9 +70,10 @@ def path_of(value: Text) -> Path | None:
 
 
 def map_paths(files: Iterable[File]) -> list[Path]:
-    """The text files that the tasks and scenes of some files name."""
-    facts = (fact for file in files for declaration in file.declarations for fact in declaration.facts)
-    values = (each.value for fact in facts if isinstance(fact, Contains) for each in fact.phrase.arguments)
+    """The text files that tasks and scenes name, and the files that procedures use."""
+    facts = [fact for file in files for declaration in file.declarations for fact in declaration.facts]
+    values = [each.value for fact in of_form(facts, Contains) for each in fact.phrase.arguments]
+    values += [fact.file for fact in of_form(facts, Uses)]
     return [path for value in values if isinstance(value, Text) and (path := path_of(value))]
 
 
@@ -90,11 +91,14 @@ def _named(drawn: Thing, things: Things, are_all: bool, findings: Findings) -> I
     """The things that the letters of a map stand for, and their places; other letters are reported."""
     unknown = []
     for letter, places in drawn.kind.letters.items():
-        fit = [thing.name for thing in things if thing.name.startswith(letter) and thing is not drawn]
-        if letter in fit or len(fit) == 1:
-            yield letter if letter in fit else fit[0], places
+        if letter == START:
+            continue
+        small = letter.lower()
+        fit = [thing.name for thing in things if thing.name.startswith(small) and thing is not drawn]
+        if small in fit or len(fit) == 1:
+            yield small if small in fit else fit[0], places
         elif fit:
-            hint = f"Call one of them {letter}, or let their names begin with different letters."
+            hint = f"Call one of them {small}, or let their names begin with different letters."
             message = f"The letter {letter} of this map can be {listed(fit)}."
             findings.error("ambiguous-letter", drawn.span, message, hint)
         else:
@@ -102,10 +106,20 @@ def _named(drawn: Thing, things: Things, are_all: bool, findings: Findings) -> I
     if unknown and are_all:
         shown = [repr(letter) for letter in unknown[:MAX_SHOWN_LETTERS]]
         more = [f"{len(unknown) - len(shown)} more"] if len(unknown) > len(shown) else []
-        names = [letter for letter in unknown if letter.isalpha() and letter.islower()]
+        names = [letter.lower() for letter in unknown if letter.isalpha()]
         add = f"Add contains {names[0]} is item to the task, or write" if names else "Write"
         message = f"The map has {listed(shown + more, 'and')}, which no thing of the task begins with."
         findings.error("unknown-letter", drawn.span, message, f"{add} {FLOOR} for floor and {WALL} for wall.")
+
+
+def map_start(things: Things, findings: Findings) -> tuple[Place, Span] | None:
+    """The place at which a map of these things has the robot start, and where that map stands; None where none has."""
+    drawn = [thing for thing in things if thing.kind and not thing.kind.mistake(None)]
+    found = [(place, thing.span) for thing in drawn for place in thing.kind.letters.get(START, ())]
+    if len(found) > 1:
+        hint = f"Leave one {START} where the robot starts; any other letter is that of a thing."
+        findings.error("placed-twice", found[-1][1], f"The map has {len(found)} {START}: a robot starts once.", hint)
+    return found[0] if found else None
 
 
 def _placed(thing: Thing, places: tuple[Place, ...] | None, scene: SceneKind | None, findings: Findings) -> Thing:

@@ -5,6 +5,7 @@ from typing import Any
 
 from mindrun.graph.graph import Receiver
 from mindrun.kinds.functions.function import Function
+from mindrun.kinds.functions.procedure import is_inside
 from mindrun.numbers.quantity import RATIO
 from networkx import DiGraph
 
@@ -19,9 +20,9 @@ from mindlang.compiler.resolve.likeness import alike, unsaid
 from mindlang.compiler.resolve.parts import ONE_OF_TWO, refuse_facts, said_once
 from mindlang.compiler.resolve.promises import resolve_promises
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.syntax import Chooses, Declaration, Drives, Influences, Reads, Sends, Stays, of_form
+from mindlang.compiler.syntax import Chooses, Declaration, Drives, Influences, Reads, Sends, Stays, Uses, of_form
 
-FACTS = ("reads", "drives", "influences", "chooses", "stays", "requires", "maintains", "achieves")
+FACTS = ("reads", "drives", "influences", "chooses", "stays", "uses", "requires", "maintains", "achieves")
 STATES: Mapping[type[Stays] | type[Chooses], tuple[str, str]] = {Stays: ("stay", "frozen"), Chooses: ("choose", "one")}
 
 
@@ -65,7 +66,9 @@ def _skill(
         _check_works(declaration, function, edges, findings)
     frozen, chooses = (_is_so(declaration, form, findings) for form in (Stays, Chooses))
     promises = resolve_promises(declaration, names, widths, findings)
-    return model.Skill(name, function, reads, edges, frozen, declaration, chooses=chooses, promises=promises)
+    files = _files(declaration, function, findings)
+    said = {"chooses": chooses, "promises": promises, "files": files}
+    return model.Skill(name, function, reads, edges, frozen, declaration, **said)
 
 
 def _reads(declaration: Declaration, names: Names, findings: Findings) -> tuple[str, ...]:
@@ -131,6 +134,20 @@ def _is_so(declaration: Declaration, form: type[Stays] | type[Chooses], findings
             "nothing-to-choose", fact.span, f"{declaration.header.name.text} has no influence to choose.", hint
         )
     return bool(said_once(right, lambda _: f"The skill already {verb}s {word}.", findings, ONE_OF_TWO)) and not is_idle
+
+
+def _files(declaration: Declaration, function: Function | None, findings: Findings) -> tuple[str, ...]:
+    """The files that the procedure of a skill uses, each once; whether they are there says who reads its module."""
+    said = of_form(declaration.facts, Uses)
+    if said and function and function.calls is None:
+        message = f"{declaration.header.name.text} is no procedure, and reads no file."
+        findings.error("foreign-fact", said[0].span, message, "Leave the line out.")
+        return ()
+    for fact in (each for each in said if not is_inside(each.file.text)):
+        hint = "A procedure uses files in the folder of the mind or below it: models/policy.pt"
+        findings.error("outside-project", fact.file.span, f'"{fact.file.text}" is not inside the project.', hint)
+    once = said_once(said, lambda fact: f"The skill already uses {fact.file.text}.", findings, ONE_OF_TWO)
+    return tuple(fact.file.text for fact in once)
 
 
 def _check_works(declaration: Declaration, function: Function, edges: Sequence[model.Edge], findings: Findings) -> None:

@@ -1,7 +1,7 @@
 """The world of a task or a scene: things, where they and the robot begin, variations and failures."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +22,7 @@ from mindlang.compiler.names import Names, declared_things
 from mindlang.compiler.resolve.draws import at_drawn, resolve_draws
 from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
-from mindlang.compiler.resolve.maps import with_places
+from mindlang.compiler.resolve.maps import map_start, with_places
 from mindlang.compiler.resolve.parts import said_once
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
@@ -189,10 +189,13 @@ def _start(
         start = Start(None if x is None or y is None else (x, y), facing)
     message = f"The {declaration.header.noun.text} already says where the robot starts."
     said_once(said, lambda _: message, findings, "Write both on one line: starts at 0 0 facing 90 deg.")
-    is_left_open = declaration.header.noun.text == "scene" and not said  # to the tasks in it
+    drawn = None if said and said[-1].place else map_start(things, findings)
+    start = replace(start, at=drawn[0]) if drawn else start
+    where = drawn[1] if drawn else said[-1].span if start.at else None
+    is_left_open = declaration.header.noun.text == "scene" and not (said or drawn)  # to the tasks in it
     if scene and not is_left_open and not (said and said[-1].place and not start.at):
         begun = task_beginning(scene, things, start, body, 0.0)
-        _check_start(declaration.header.name.span, said[-1].span if start.at else None, begun, findings)
+        _check_start(declaration.header.name.span, where, begun, findings)
     return start
 
 

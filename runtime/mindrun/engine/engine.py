@@ -1,6 +1,5 @@
 """A mind that runs, on numpy alone: the definition that every faster executor agrees with bit for bit."""
 
-from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -14,18 +13,23 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.procedure_source import source_of
 from mindrun.graph.weights import reachable
 from mindrun.kinds.functions.function import Stateful
-from mindrun.kinds.procedure_text import module_of
+from mindrun.kinds.functions.procedure import used_file
+from mindrun.kinds.procedure_text import FILES, Sources, module_of
 from mindrun.kinds.sensors.sensor import Scene, directions
 from mindrun.numbers.arrays import Reader
 
 
-def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> dict[str, str]:
-    """The text of each module that the skills below `master` (default: the mind's) call, by dotted name.
+def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> dict[str, str | bytes]:
+    """The text of each module that the skills below `master` (default: the mind's) call, and the files that they use.
 
     ProcedureError where one cannot be what its skill needs (`source_of`).
     """
-    skills = reachable(graph, master or graph.master)
-    return {module_of(calls): source_of(s, folder) for s in skills if (calls := s.function.calls) is not None}
+    found: dict[str, str | bytes] = {}
+    for skill in reachable(graph, master or graph.master):
+        if (calls := skill.function.calls) is not None:
+            found[module_of(calls)] = source_of(skill, folder)
+            found |= {f"{FILES}{name}": used_file(calls, name, folder) for name in skill.files}
+    return found
 
 
 def scene_of(graph: Graph) -> Scene:
@@ -50,9 +54,7 @@ class Engine:
     dotted name, `master` another skill than the mind's own to be in charge. Raises MindError where one does not fit.
     """
 
-    def __init__(
-        self, policy: Policy, procedures: Path | Mapping[str, str] | None = None, master: str | None = None
-    ) -> None:
+    def __init__(self, policy: Policy, procedures: Path | Sources | None = None, master: str | None = None) -> None:
         graph = policy.graph
         master = master or graph.master
         if master not in {skill.name for skill in graph.skills}:

@@ -15,6 +15,7 @@ from mindrun.graph.graph import Edge, Gate, Program
 from mindrun.graph.policy import Policy
 from mindrun.graph.scopes import Scopes, influence_scopes
 from mindrun.graph.weights import reachable, weights_of
+from mindrun.kinds.procedure_text import Sources
 from mindrun.numbers.arrays import Compute
 from mindrun.numbers.expression import evaluate
 
@@ -71,7 +72,7 @@ class Thought:
     faults: int
 
 
-def hierarchy(policy: Policy, sources: Mapping[str, str], master: str) -> Hierarchy:
+def hierarchy(policy: Policy, sources: Sources, master: str) -> Hierarchy:
     """Make every skill ready that `master` reaches; WeightsError or ProcedureError where one cannot be."""
     graph = policy.graph
     numbers, scopes = graph.skill_numbers, influence_scopes(graph)

@@ -22,6 +22,7 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.validate import graph_flaw
 from mindrun.graph.weights import genes, read_weights
 from mindrun.graph.wiring import Wiring, flaws
+from mindrun.kinds.procedure_text import FILES, Sources
 from mindrun.kinds.registry import kinds
 from mindrun.numbers.short_repr import ShortRepr
 
@@ -36,10 +37,10 @@ DIGEST_CHARACTERS = 64
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Bundle(ShortRepr):
-    """A policy, the text of each procedure's module by dotted name, and a robot's wiring where the mind has a robot."""
+    """A policy, the texts of procedures with the files that they use, and a robot's wiring where there is a robot."""
 
     policy: Policy
-    procedures: Mapping[str, str]
+    procedures: Sources
     wiring: Wiring | None = None
 
     @property
@@ -82,7 +83,8 @@ def digest(path: Path) -> str:
 def pack(bundle: Bundle) -> bytes:
     """A bundle as bytes."""
     members = _members(bundle)
-    manifest = _manifest(bundle.graph.master, bundle.policy.weights, bundle.procedures, bundle.wiring, members)
+    modules = [name for name, content in bundle.procedures.items() if isinstance(content, str)]
+    manifest = _manifest(bundle.graph.master, bundle.policy.weights, modules, bundle.wiring, members)
     files = [(MANIFEST, _json(manifest)), *sorted(members.items())]
     data = write_archive(files, comment=bytes(DIGEST_CHARACTERS))[:-DIGEST_CHARACTERS]
     data += sha256(data).hexdigest().encode()
@@ -109,7 +111,11 @@ def _members(bundle: Bundle) -> dict[str, bytes]:
     """The files of a bundle by name, without its manifest."""
     members = {GRAPH: _json(encode(bundle.graph))}
     members |= {f"{WEIGHTS}{skill}.npy": to_npy(weights) for skill, weights in bundle.policy.weights.items()}
-    members |= {f"{MODULES}{module.replace('.', '/')}.py": text.encode() for module, text in bundle.procedures.items()}
+    for name, content in bundle.procedures.items():
+        if isinstance(content, str):
+            members[f"{MODULES}{name.replace('.', '/')}.py"] = content.encode()
+        else:
+            members[name] = content
     return members | ({WIRING: _json(encode(bundle.wiring))} if bundle.wiring else {})
 
 
@@ -134,12 +140,15 @@ def _bundle(members: dict[str, bytes]) -> Bundle:
     graph = decode(migrated(_document(members, GRAPH)))
     weights = {name: read_weights(content) for name, content in _below(members, WEIGHTS, ".npy")}
     procedures = {name.replace("/", "."): content.decode() for name, content in _below(members, MODULES, ".py")}
+    files = {f"{FILES}{name}": content for name, content in _below(members, FILES, "")}
     wiring = decode_wiring(_document(members, WIRING), graph) if manifest["format"] == WIRED else None
-    known = 1 + len(weights) + len(procedures) + (wiring is not None)
+    known = 1 + len(weights) + len(procedures) + len(files) + (wiring is not None)
     if manifest != _manifest(graph.master, weights, procedures, wiring, members) or len(members) != known:
         raise BundleError("this bundle's files are not those of its manifest")
     _refuse_strangers(graph, weights, procedures)
-    return Bundle(Policy(graph, weights), procedures, wiring)
+    if not files.keys() <= {f"{FILES}{name}" for skill in graph.skills for name in skill.files}:
+        raise BundleError("this bundle has files that no procedure of it uses")
+    return Bundle(Policy(graph, weights), {**procedures, **files}, wiring)
 
 
 def _refuse_strangers(graph: Graph, skills: Iterable[str], modules: Iterable[str]) -> None:
@@ -157,7 +166,7 @@ def _below(members: Mapping[str, bytes], folder: str, suffix: str) -> Iterator[t
     """The files in a folder of a bundle, by their names without folder and suffix."""
     for name, content in members.items():
         if name.startswith(folder) and name.endswith(suffix):
-            yield name[len(folder) : -len(suffix)], content
+            yield name[len(folder) : len(name) - len(suffix)], content
 
 
 def _document(members: Mapping[str, bytes], name: str) -> Any:

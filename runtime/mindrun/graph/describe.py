@@ -37,7 +37,8 @@ def contents(bundle: Bundle) -> dict[str, Any]:
             }
             for s in graph.skills
         ],
-        "procedures": sorted(bundle.procedures),
+        "procedures": sorted(name for name, content in bundle.procedures.items() if isinstance(content, str)),
+        **({"files": files} if (files := sorted({name for s in graph.skills for name in s.files})) else {}),
         **({"robot": _robot(bundle.wiring)} if bundle.wiring else {}),
     }
 
@@ -74,6 +75,7 @@ def _lines(found: dict[str, Any]) -> Iterator[str]:
         weights = f", {_counted(part['weights'], 'weight')}" if part["weights"] else ""
         shared = f", those of {part['like']}" if "like" in part else ""
         yield f"skill {part['name']} is {part['kind']}: {_counted(part['inputs'], 'input')}{weights}{shared}"
+    yield from (f"file {name}" for name in found.get("files", ()))
     if "robot" in found:
         yield from _wires(found["robot"])
 

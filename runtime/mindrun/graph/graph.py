@@ -105,6 +105,7 @@ class Skill:
     that is `like` another has the same function, which sends the same, and shares its weights for ever. One that
     `chooses` sends 1 over the influence that is greatest before the clamp, of equals the first, and 0 over its others.
     What it `promises` changes nothing in what it computes (`mindrun.engine.promises`).
+    `files` are the paths of those that its procedure uses, in rising order, below the folder of the mind.
     """
 
     name: str
@@ -115,6 +116,7 @@ class Skill:
     like: str = ""
     chooses: bool = left_out(False)
     promises: tuple[Promise, ...] = left_out(())
+    files: tuple[str, ...] = left_out(())
 
     @property
     def owner(self) -> str:

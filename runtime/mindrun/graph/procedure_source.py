@@ -7,7 +7,7 @@ from pathlib import Path
 from mindrun.graph.graph import Skill
 from mindrun.kinds.functions.procedure import module_source
 from mindrun.kinds.procedure_names import imports, texts
-from mindrun.kinds.procedure_text import STANDS_ALONE, fault, fit, parsed
+from mindrun.kinds.procedure_text import NOT_USED, STANDS_ALONE, fault, fit, parsed
 
 
 def source_of(skill: Skill, folder: Path) -> str:
@@ -18,7 +18,7 @@ def source_of(skill: Skill, folder: Path) -> str:
     """
     calls = str(skill.function.calls)
     source = module_source(calls, folder)
-    fit(calls, source, len(skill.inputs), skill.outputs)
+    fit(calls, source, len(skill.inputs), skill.outputs, bool(skill.files))
     names = parsed(calls, source)
     for line, module, _, _ in imports(names):
         top = module.partition(".")[0]
@@ -28,8 +28,8 @@ def source_of(skill: Skill, folder: Path) -> str:
         if _is(Path.is_dir, folder / top) and not is_installed(top, folder):  # a package without an __init__.py
             raise fault(calls, f"imports {module}, a folder that no bundle holds", line, STANDS_ALONE)
     for line, text in texts(names):
-        if "." in text and _is(Path.is_file, folder / text):
-            raise fault(calls, f"names {text}, a file that no bundle holds", line, STANDS_ALONE)
+        if "." in text and text not in skill.files and _is(Path.is_file, folder / text):
+            raise fault(calls, f"names {text}, a file that no bundle holds", line, NOT_USED)
     return source
 
 

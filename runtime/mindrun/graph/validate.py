@@ -8,6 +8,7 @@ from math import prod
 from mindrun.graph.draws import MAX_VALUES
 from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task, varied_quantity
 from mindrun.graph.tasks import varied_kind
+from mindrun.kinds.functions.procedure import is_inside
 from mindrun.kinds.registry import arguments
 from mindrun.kinds.sensors.sensor import directions
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ROBOT
@@ -123,6 +124,10 @@ def _skill_flaws(graph: Graph, number: int, skill: Skill, width: int) -> Iterato
         yield "has nothing to choose"
     if not all(is_condition(each.when) and _computes(each.when, range(width)) for each in skill.promises):
         yield "promises what cannot be computed"
+    if skill.files and (skill.function.calls is None or not all(map(is_inside, skill.files))):
+        yield "uses files that cannot be its"
+    if skill.files != tuple(sorted({*skill.files})):
+        yield "uses a file twice"
 
 
 def _likeness_flaws(graph: Graph) -> Iterator[str]:

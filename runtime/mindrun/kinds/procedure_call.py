@@ -1,26 +1,31 @@
 """Running procedures: their modules are executed, and their functions called with readings."""
 
+import os
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import lru_cache
 from hashlib import sha256
+from pathlib import Path
+from shutil import rmtree
+from tempfile import mkdtemp
 from traceback import walk_tb
 from types import CodeType, ModuleType
 from typing import Any
 from warnings import catch_warnings
+from weakref import finalize
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.errors import ProcedureError
-from mindrun.kinds.procedure_text import examine, file_of, module_of
+from mindrun.kinds.procedure_text import FILES, Sources, examine, file_of, module_of
 from mindrun.numbers.given_numbers import number, values
 
 
 class RunningProcedure:
     """A procedure of one run: its function, from a module that is executed anew for each run."""
 
-    def __init__(self, calls: str, sources: Mapping[str, str], outputs: int) -> None:
+    def __init__(self, calls: str, sources: Sources, outputs: int) -> None:
         self.calls, self.sources, self.outputs = calls, sources, outputs
         self.function, self.was_called = load(calls, sources), False
 
@@ -35,15 +40,18 @@ class RunningProcedure:
         return call(self.calls, self.function, self.outputs, inputs)
 
 
-def load(calls: str, sources: Mapping[str, str]) -> Callable[..., Any]:
+def load(calls: str, sources: Sources) -> Callable[..., Any]:
     """Run a procedure's module, from its text by dotted name, and give the function."""
     source = sources.get(module_of(calls))
-    if source is None:
+    if not isinstance(source, str):
         raise ProcedureError(f"procedure from {calls}: there is no module {module_of(calls)}")
-    examine(calls, source)
+    files = tuple((name.removeprefix(FILES), data) for name, data in sources.items() if isinstance(data, bytes))
+    examine(calls, source, bool(files))
     path, digest = file_of(calls), sha256(source.encode()).hexdigest()[:12]
     module = ModuleType(f"_mind_{module_of(calls).replace('.', '_')}_{digest}")
     sys.modules[module.__name__] = module  # dataclasses look their module up
+    if files:
+        module.__file__ = str(_folder_of(files) / path)
     try:
         exec(_code(source, path), module.__dict__)
     except KeyboardInterrupt:
@@ -54,6 +62,23 @@ def load(calls: str, sources: Mapping[str, str]) -> Callable[..., Any]:
     if not callable(function):
         raise ProcedureError(f"procedure from {calls}: its module has no such function")
     return function  # type: ignore[no-any-return]
+
+
+@lru_cache(8)
+def _folder_of(files: tuple[tuple[str, bytes], ...]) -> Path:
+    """A new folder with these files, which is there until this process ends: the same wherever a mind runs."""
+    folder, process = Path(mkdtemp(prefix="mind-files-")), os.getpid()
+    finalize(RunningProcedure, _remove, folder, process)
+    for name, data in files:
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(data)
+    return folder
+
+
+def _remove(folder: Path, process: int) -> None:
+    """Remove a folder at the end of the process that made it, and of none that it forked."""
+    if os.getpid() == process:
+        rmtree(folder, ignore_errors=True)
 
 
 @lru_cache(64)

@@ -4,7 +4,7 @@ The function is looked for as `from` names it: `claw.grip` is `grip` in claw.py.
 """
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from symtable import symtable
@@ -15,6 +15,10 @@ from mindrun.kinds.procedure_names import ModuleNames, drawn, opened
 
 FUNCTIONS = ast.FunctionDef | ast.AsyncFunctionDef
 STANDS_ALONE = "A module stands alone: write what it needs into it."
+NOT_USED = f'{STANDS_ALONE} A file of data may be beside it: add uses "policy.pt" to the skill.'
+FILES = "files/"  # before the path of a file, where it stands among modules
+
+Sources = Mapping[str, str | bytes]  # the text of each module by dotted name, and FILES and the path of each file used
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,15 +45,18 @@ def file_of(from_: str) -> str:
 
 
 @lru_cache(16)
-def examine(from_: str, source: str) -> FunctionSignature | None:
-    """The function's signature, None where only running could tell; ProcedureError where it can be no procedure."""
+def examine(from_: str, source: str, has_files: bool = False) -> FunctionSignature | None:
+    """The function's signature, None where only running could tell; ProcedureError where it can be no procedure.
+
+    With `has_files` it may read files.
+    """
     try:
-        return _examined(from_, source)
+        return _examined(from_, source, has_files)
     except RecursionError:
         raise fault(from_, "its module is nested too deep") from None
 
 
-def _examined(from_: str, source: str) -> FunctionSignature | None:
+def _examined(from_: str, source: str, has_files: bool) -> FunctionSignature | None:
     names, name = parsed(from_, source), from_.rpartition(".")[2]
     tree = names.tree
     functions = [node for node in _own(tree) if isinstance(node, FUNCTIONS) and node.name == name]
@@ -59,8 +66,8 @@ def _examined(from_: str, source: str) -> FunctionSignature | None:
     for line, by in drawn(names):
         hint = "Draw from a generator of its own, with a seed: random.Random(1). Each run then begins with it anew."
         raise fault(from_, f"its module draws from {by}, so no run could be made again", line, hint)
-    for line, by in opened(names):
-        raise fault(from_, f"its module looks for a file with {by}, and no bundle holds one", line, STANDS_ALONE)
+    for line, by in () if has_files else opened(names):
+        raise fault(from_, f"its module looks for a file with {by}, and no bundle holds one", line, NOT_USED)
     if len(functions) != 1 or name in given:
         return None
     [function] = functions
@@ -73,9 +80,9 @@ def _examined(from_: str, source: str) -> FunctionSignature | None:
     return None if function.decorator_list else _signature(function, inside)
 
 
-def fit(from_: str, source: str, inputs: int, outputs: int) -> None:
+def fit(from_: str, source: str, inputs: int, outputs: int, has_files: bool = False) -> None:
     """Raise ProcedureError where the function cannot take so many readings, or return so many numbers."""
-    shape = examine(from_, source)
+    shape = examine(from_, source, has_files)
     if shape is None or outputs == 0:
         return
     if inputs < shape.least or (shape.most is not None and inputs > shape.most):

@@ -67,7 +67,7 @@ class Procedures:
         from mindrun.sim.formulas import NoFormulaError
 
         try:
-            source = self._sources[module_of(self.calls[skill.name])]
+            source = str(self._sources[module_of(self.calls[skill.name])])
             found = compile_formula(function, source, len(skill.inputs), skill.outputs)
         except NoFormulaError as error:
             self.slow[skill.name] = str(error)

@@ -12,6 +12,7 @@ from mindrun.numbers.quantity import Quantity
 if TYPE_CHECKING:
     import numpy as np
 
+    from mindrun.kinds.procedure_text import Sources
     from mindrun.numbers.arrays import Compute, Layers, Weights
     from mindrun.numbers.network import Terms
 
@@ -111,7 +112,7 @@ class Function:
         """Weights that do the same with its inputs and outputs in this order: the first is now number `inputs[0]`."""
         return weights
 
-    def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
+    def ready(self, inputs: int, outputs: int, weights: Weights, sources: Sources) -> Compute:
         """A function of float32 inputs to float32 outputs, not yet clamped; `sources` are modules' texts by name."""
         import numpy as np
 
@@ -192,7 +193,7 @@ class NetworkFunction(Function):
         found[-1] = found[-1][list(outputs)]
         return genome(found)
 
-    def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
+    def ready(self, inputs: int, outputs: int, weights: Weights, sources: Sources) -> Compute:
         """The network with these weights (Eq. 1), from tick to tick; one without a state takes rows of inputs, too."""
         from mindrun.numbers.network import FLOAT32, NOTHING, StatefulNetwork, matrices
 

@@ -10,7 +10,7 @@ from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import Rectangle, ThingKind, ThingMistake
 from mindrun.numbers.quantity import LENGTH, Place, Reference
 
-WALL, FLOOR = "#", "."
+WALL, FLOOR, START = "#", ".", "S"
 MAX_MAP_CELLS = 40_000  # 200 by 200
 CELL = replace(LENGTH, low=0.01, high=1000.0)
 
@@ -21,7 +21,8 @@ Lines = tuple[str, ...]
 class Map(ThingKind):
     """Walls drawn in a text file: `#` is wall, `.` is floor, each a square of side `cell`; its middle is the world's.
 
-    A letter is floor on which a thing stands when a run begins: the one of that name, or whose name begins with it.
+    A letter is floor on which a thing stands when a run begins: the one of that name, or whose name begins with it, a
+    capital like a small one. `S` is floor where the robot starts, unless the task says `starts at`.
     """
 
     from_: Annotated[Lines, Reference("text file")]
