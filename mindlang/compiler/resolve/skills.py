@@ -67,8 +67,9 @@ def _skill(
     frozen, chooses = (_is_so(declaration, form, findings) for form in (Stays, Chooses))
     promises = resolve_promises(declaration, names, widths, findings)
     files = _files(declaration, function, findings)
-    said = {"chooses": chooses, "promises": promises, "files": files}
-    return model.Skill(name, function, reads, edges, frozen, declaration, **said)
+    return model.Skill(
+        name, function, reads, edges, frozen, declaration, chooses=chooses, promises=promises, files=files
+    )
 
 
 def _reads(declaration: Declaration, names: Names, findings: Findings) -> tuple[str, ...]:
