@@ -1,7 +1,7 @@
 """Hypothesis strategies for whole hierarchies, their weights and what they read."""
 
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from math import pi, prod
 from pathlib import Path
 
@@ -18,7 +18,7 @@ from mindrun.kinds.registry import arguments, kinds
 from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.sensors.bumper import Bumper
 from mindrun.kinds.sensors.claw import Contact, Held
-from mindrun.kinds.sensors.compass import Compass
+from mindrun.kinds.sensors.compass import Compass, Direction
 from mindrun.kinds.sensors.computed import Computed
 from mindrun.kinds.sensors.derived import Average, Derivative, Latch, Reading, Turned
 from mindrun.kinds.sensors.floor import Floor, Inside
@@ -40,8 +40,11 @@ WORLDLY = [
     Bearing("coin", range=5.0, dead_zone=0.1),
     Bearing("rock"),
     Bearing("fence", range=5.0),
+    Bearing("object", on="a1"),
     Compass(),
     Compass(dead_zone=0.1),
+    Direction("a0"),
+    Direction("a1"),
     Contact("object"),
     Contact("coin"),
     Held("object"),
@@ -61,6 +64,8 @@ WORLDLY = [
     Light("crate"),
     Light("ball"),
     Eye("object", at=EYES[:3]),
+    Eye("home", at=EYES[:2], on="a2"),
+    RangeFinder(at=EYES[:3], on="a1"),
     Eye("crate", at=EYES[:3]),
     Eye("ball", at=(0.0, 0.2)),
     Eye("fence", at=(-0.5, 0.0, 0.5, 3.0)),
@@ -94,7 +99,7 @@ ROUGH = st.fixed_dictionaries(
     },
 )
 VIRTUAL = st.sampled_from(["sine", "clock", "derivative", "computed", "latch", "average", "reading", "turned"])
-ACTUATORS = [Wheel("left", 0.5), Wheel("right", 0.5, delay=2), Gripper(0.0), Servo(0.3)]
+ACTUATORS = [Wheel("left", 0.5), Wheel("right", 0.5, delay=2), Gripper(0.0), Servo(0.3), Servo(0.4, 0, 1.2, 0.3)]
 CALLED = Procedure("")
 PROCEDURES = Path(__file__).parent / "procedures"  # the folder of the modules that are called
 SCALES = [0.1, 0.3, 0.3, 1.0, 10.0, 1e4, 1e20, 3e38]
@@ -118,6 +123,7 @@ def random_graph(draw: st.DrawFn, fewest_hidden: int = 0, alike: bool = True) ->
     sensors, memories = draw(_senses())
     width = sum(sensor.width for sensor in sensors) + len(memories)
     actuators = tuple(Actuator(f"a{i}", draw(st.sampled_from(ACTUATORS))) for i in range(draw(st.integers(1, 3))))
+    sensors = draw(on_servos(sensors, actuators))
     count = draw(st.integers(1, 6))
     skills = []
     for number in range(count):
@@ -131,6 +137,22 @@ def random_graph(draw: st.DrawFn, fewest_hidden: int = 0, alike: bool = True) ->
             targets += [("actuator", i) for i in range(len(actuators))] + [("memory", i) for i in range(len(memories))]
             skills[number] = draw(_alike(f"S{number}", draw(st.sampled_from(owners)), width, targets))
     return Graph(1 / 60, Disc(), "S0", sensors, memories, actuators, tuple(skills), (), ())
+
+
+@st.composite
+def on_servos(draw: st.DrawFn, sensors: tuple[Sensor, ...], actuators: tuple[Actuator, ...]) -> tuple[Sensor, ...]:
+    """Sensors whose servos are among the actuators: some sit on others than they did, or on none."""
+    servos = [actuator.name for actuator in actuators if actuator.kind.carries]
+    found = []
+    for sensor in sensors:
+        kind = sensor.kind
+        if isinstance(kind, Direction):
+            said = {each.name: getattr(kind, each.name) for each in fields(Physical)}
+            kind = replace(kind, of=draw(st.sampled_from(servos))) if servos else Compass(**said)
+        elif kind.servo or (hasattr(kind, "on") and draw(st.booleans())):
+            kind = replace(kind, on=draw(st.sampled_from(servos or [""])))
+        found.append(replace(sensor, kind=kind))
+    return tuple(found)
 
 
 @st.composite

@@ -157,6 +157,8 @@ def _in_arguments(written: Iterable[syntax.Argument], classes: Iterable[type[Any
                 yield value, ("thing",)
             case Name(), Noun(noun="sensor"):
                 yield value, READABLE_NOUNS
+            case Name(), Noun(noun="servo"):
+                yield value, ("actuator",)
             case Name(), Quantity():
                 yield value, ("number",)
             case Name(), None if key == "from":

@@ -29,7 +29,7 @@ from mindrun.graph.graph import (
     Variation,
 )
 from mindrun.kinds.registry import arguments, names
-from mindrun.numbers.quantity import EXPRESSION, SENSOR, THING, Quantity, Reference
+from mindrun.numbers.quantity import EXPRESSION, SENSOR, SERVO, THING, Quantity, Reference
 
 from mindlang.compiler.names import Names
 from mindlang.compiler.parse.shape import parse_line
@@ -228,6 +228,8 @@ def _argument(value: Any, meaning: Quantity | Reference | None, name: Name) -> A
         return name(value, "thing") if isinstance(value, str) else value
     if meaning == SENSOR:
         return name(value, *READABLE_NOUNS)
+    if meaning == SERVO:
+        return name(value, "actuator")
     if meaning == EXPRESSION:
         new = ((word, name(x, *READABLE_NOUNS) if isinstance(x, str) else x) for word, x in value)
         return type(value)(map(type(value), new))

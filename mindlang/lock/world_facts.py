@@ -117,8 +117,9 @@ class Worlds:
         for memory in self.graph.memories:
             if memory.name in sources | driven:
                 yield f"memory {memory.name}", encode(memory.kind)
+        carrying = {sensor.kind.servo for sensor in self.graph.sensors if sensor.name in sources}
         for actuator in self.graph.actuators:
-            if actuator.name in driven or actuator.kind.acts_at_rest:
+            if actuator.name in driven | carrying or actuator.kind.acts_at_rest:
                 yield f"actuator {actuator.name}", encode(actuator.kind)
         if any(thing.kind.can_be_delivered for thing in task.things):
             yield "claw", self.graph.claw_reach

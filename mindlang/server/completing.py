@@ -273,6 +273,8 @@ def _arguments(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
         case key, registry.Argument(type=Reference(noun="thing")):
             yield from words(*[ROBOT] * (said.noun == "content"))
             yield from things(line.view, line.owner, about(said.noun, said.kind, key))
+        case _, registry.Argument(type=Reference(noun="servo")):
+            yield from names(line.view, "actuator")
         case _, registry.Argument(type=meaning) if meaning == FUNCTION:
             yield from (Offer(name, "function") for name in functions(line.folder))
         case _, registry.Argument(type=Reference(words=allowed)):

@@ -25,7 +25,7 @@ def sensed(world, kind, all_of, boxes):
         case Light():
             return [light(world, kind, world.nearest(all_of), all_of)], 0.0
         case Eye():
-            return [eye(world, kind, all_of, boxes, world.angle + at) for at in kind.at], 1.0
+            return [eye(world, kind, all_of, boxes, world.looks(kind) + at) for at in kind.at], 1.0
         case TurnRate():
             return [signed(-body.angular_velocity / kind.range, kind.dead_zone)], 0.5
         case Speed():

@@ -5,14 +5,14 @@ from collections import deque
 
 import numpy as np
 import pymunk
-from mindrun.kinds.actuators.actuator import Gripper, Motor, Steering, Thruster, Wheel
+from mindrun.kinds.actuators.actuator import Gripper, Motor, Servo, Steering, Thruster, Wheel
 from mindrun.kinds.bodies.body import Car, Disc, Holonomic
 from mindrun.kinds.events.event import Collision, Delivery, Exhaustion, Leave, Reach, Success, Visit
 from mindrun.kinds.measures.measure import Advance, Apart, CommandChange, Forward, Progress, Retreat
 from mindrun.kinds.scenes.scene import Arena
 from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.sensors.claw import Contact, Held
-from mindrun.kinds.sensors.compass import Compass
+from mindrun.kinds.sensors.compass import Compass, Direction
 from mindrun.kinds.sensors.floor import Inside
 from mindrun.kinds.sensors.motion import Inertial
 from mindrun.kinds.sensors.nearest import Bearing
@@ -52,6 +52,7 @@ class PlainWorld:
         self.charge = self.cell.start
         self.trail = deque([(self.x, self.y)] * TRAIL, TRAIL)
         self.commands = [a.kind.neutral for a in graph.actuators]
+        self.swivel = {a.name: self.sent(a.kind, f(a.kind.neutral)) for a in graph.actuators if a.kind.carries}
         self.late = [deque([f(a.kind.neutral)] * a.kind.delay) for a in graph.actuators]
         self.turns = {i: deque() for i, m in enumerate(task.measures) if isinstance(m, CommandChange)}
         self.counts = [0] * len(task.events)
@@ -62,6 +63,15 @@ class PlainWorld:
         self.drawn = run.drawn[len(run.drawn) - len(task.draws) :].tolist()
         self.walkers = PlainWalkers(self, run.turned, run.state.world.goal[:, 0].tolist())
         self.there = [self.present(event) if isinstance(event, Leave) else set() for event in task.events]
+
+    @staticmethod
+    def sent(kind, command):
+        """The angle to the left to which a command sends a servo."""
+        return (1 - 2 * float(command)) * kind.range
+
+    def looks(self, kind):
+        """The angle in the world that is straight ahead for a sensor."""
+        return self.angle + self.swivel.get(kind.servo, 0.0)
 
     def patch(self, event):
         """Where the robot is on an event's board, if it has one."""
@@ -78,13 +88,15 @@ class PlainWorld:
         boxes = self.boxes_of(getattr(kind, "of", None))
         match kind:
             case RangeFinder():
-                return [self.ray(self.angle + at, kind) for at in kind.at], 1.0
+                return [self.ray(self.looks(kind) + at, kind) for at in kind.at], 1.0
             case Battery():
                 return [(float(f(self.charge)),) * 2], None
             case Bearing():
                 return [self.bearing(self.nearest(all_of, boxes), kind)], 0.5
             case Compass():
                 return [pointed(math.sin(self.angle), math.cos(self.angle), kind.dead_zone)], 0.5
+            case Direction():
+                return [(0.5 - self.swivel[kind.of] / (2 * math.pi),) * 2], 0.5
             case Contact():
                 value = any(self.in_claw(i, self.reach()) for i in all_of)
             case Held():
@@ -123,7 +135,7 @@ class PlainWorld:
         if place is None or (kind.range and self.away(place) > kind.range):
             return 0.5, 0.5
         dx, dy = place[0] - self.x, place[1] - self.y
-        c, s = math.cos(self.angle), math.sin(self.angle)
+        c, s = math.cos(self.looks(kind)), math.sin(self.looks(kind))
         return pointed(c * dx + s * dy, c * dy - s * dx, kind.dead_zone)
 
     def ray(self, angle, kind):
@@ -187,7 +199,7 @@ class PlainWorld:
         found = []
         for k in range(sensor.width):
             spans = [(ticks[k][0] - kind.noise, ticks[k][1] + kind.noise) for ticks in known]
-            if isinstance(kind, Bearing | Compass):
+            if isinstance(kind, Bearing | Compass | Direction):
                 spans = [(low + turn, high + turn) for low, high in spans for turn in (-1, 0, 1)]
             else:
                 spans = [(max(0.0, low), min(1.0, high)) for low, high in spans]
@@ -204,8 +216,11 @@ class PlainWorld:
         return now
 
     def grip(self, acting):
-        """What the claw holds under the commands as they act."""
+        """What the claw holds, and where servos are, under the commands as they act."""
         for actuator, command in zip(self.graph.actuators, acting, strict=True):
+            if isinstance(actuator.kind, Servo):
+                left = self.sent(actuator.kind, command) - self.swivel[actuator.name]
+                self.swivel[actuator.name] += min(actuator.kind.speed, max(-actuator.kind.speed, left))
             if isinstance(actuator.kind, Gripper):
                 if command <= 0.5:
                     self.held = -1

@@ -23,7 +23,7 @@ from mindrun.kinds.things.walker import Begin, Walker
 from mindrun.kinds.things.wall import Wall
 from mindrun.numbers.quantity import FARTHEST_UNITS, UNSAID, Span
 
-from tests.hierarchies import combined, conditions, random_graph
+from tests.hierarchies import combined, conditions, on_servos, random_graph
 
 SIZES = st.sampled_from([Span(1.0, 1.0), Span(2.0, 5.0), Span(4.0, 1.0, 0.75), Span(1.0, 3.0, 0.75)])
 WIDE = st.sampled_from([Span(8.0, 8.0), Span(4.0, 12.0), Span(14.0, 6.0, 2.0)])
@@ -57,7 +57,8 @@ THRUSTERS = st.builds(
     SLIP,
 )
 CLAWS = st.builds(Gripper, st.sampled_from([0.0, 0.5, 0.9, 1.0]), st.sampled_from([1.5, 4.0]), DELAY, NOISE)
-OTHERS = CLAWS | st.builds(Servo, NEUTRAL, DELAY) | st.builds(Lamp, NEUTRAL, DELAY)
+SERVOS = st.builds(Servo, NEUTRAL, DELAY, st.sampled_from([pi / 2, 0.0, 3.0]), st.sampled_from([2 * pi, 0.1, 0.5]))
+OTHERS = CLAWS | SERVOS | st.builds(Lamp, NEUTRAL, DELAY)
 RANGES = {  # of what varies
     "thrust": st.sampled_from([(60.0, 200.0), (-50.0, 15.0), (80.0, 80.0)]),
     "delay": st.sampled_from([(0.0, 3.0), (2.0, 2.0), (1.0, 6.0)]),
@@ -68,7 +69,7 @@ RANGES = {  # of what varies
     "density": st.sampled_from([(0.1, 3.0), (1.0, 1.5)]),
     "friction": st.sampled_from([(0.0, 1.0), (0.3, 0.3)]),
     "damping": st.just((0.0, 9.0)),
-    "speed": st.sampled_from([(0.5, 20.0), (3.0, 3.0)]),
+    "speed": st.sampled_from([(0.5, 6.0), (3.0, 3.0)]),
     "turning": st.just((0.0, 10.0)),
     "linear_damping": st.just((0.0, 9.0)),
     "angular_damping": st.just((1.0, 30.0)),
@@ -99,7 +100,8 @@ def _robots(draw: st.DrawFn, graph: Graph) -> Graph:
     """A graph with any body, and on it actuators that can move it; others now and then."""
     bodies, drives = draw(st.sampled_from([*DRIVES.items(), *[*DRIVES.items()][:1] * 2]))
     actuators = tuple(Actuator(a.name, draw(drives | drives | OTHERS)) for a in graph.actuators)
-    return replace(graph, body=draw(bodies), actuators=actuators)
+    sensors = draw(on_servos(graph.sensors, actuators))
+    return replace(graph, body=draw(bodies), actuators=actuators, sensors=sensors)
 
 
 @st.composite

@@ -74,7 +74,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         return Name(str(token), self._span(token))
 
     TITLE = PART = WHOLE = TASK = COMPUTED = NUMBERED = SEVERAL = ORDERED = GYMNASIUM = ENVIRONMENT = NAME
-    FROM = TO = BY = FACING = AT = NAME
+    FROM = TO = BY = ON = FACING = AT = NAME
 
     def COMPARE(self, token: Token) -> str:  # noqa: N802
         """A sign between two values."""

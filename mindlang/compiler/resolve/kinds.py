@@ -135,6 +135,8 @@ def _value(
             _check_thing(name, noun, phrase.kind.text, parameter.key, scope, findings)
         case "sensor":
             scope.names.find(name, ("sensor", "memory"), findings)
+        case "servo":
+            _check_servo(name, scope.names, findings)
         case "environment" | "name of a part of an observation or an action":
             pass  # what there is, nobody but the environment knows: `resolve.outside` asks it
         case "Python function":
@@ -145,6 +147,17 @@ def _value(
             hint = did_you_mean(name.text, known) or f"It is {listed(known)}."
             findings.error(f"unknown-{noun_}", name.span, f"There is no {noun_} called {name.text}.", hint)
     return name.text
+
+
+def _check_servo(name: Name, names: Names, findings: Findings) -> None:
+    """Report a name that is no actuator's, or that of one on which no sensor can sit."""
+    if not names.find(name, ("actuator",), findings):
+        return
+    phrase = names.table["actuator"][name.text].header.phrase
+    cls = find_kind("actuator", phrase.kind.text) if phrase else None
+    if phrase and cls and not cls.carries:
+        hint = f"Declare actuator {name.text} is servo, or name a servo."
+        findings.error("no-servo", name.span, f"{name.text} is {a(phrase.kind.text)}: nothing turns with it.", hint)
 
 
 def _number(parameter: Parameter, argument: Argument, findings: Findings) -> Any:

@@ -71,6 +71,7 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
     start = 0
     widths = {memory.name: 1 for memory in graph.memories} | {sensor.name: sensor.width for sensor in graph.sensors}
     around = directions({sensor.name: sensor.kind for sensor in graph.sensors})
+    servos = {"", *(actuator.name for actuator in graph.actuators if actuator.kind.carries)}
     for sensor in graph.sensors:
         shape = sensor.kind.shape
         width = widths.get(sensor.kind.source) if shape is None else prod(shape)
@@ -78,6 +79,8 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
             yield f"sensor {sensor.name} has not the readings of its kind"
         elif not set(sensor.kind.sources) <= widths.keys() or sensor.kind.flaw(widths, around):
             yield f"sensor {sensor.name} cannot be computed"
+        if sensor.kind.servo not in servos:
+            yield f"sensor {sensor.name} is on {sensor.kind.servo!r:.60}, which is no servo"
         start += sensor.width
     try:
         TopologicalSorter({sensor.name: sensor.kind.sources for sensor in graph.sensors}).prepare()

@@ -92,6 +92,7 @@ INDEX = Quantity("a number of a slot", {"": 1.0}, low=0, high=1e6, whole=True)
 
 THING = Reference("thing")
 SENSOR = Reference("sensor")
+SERVO = Reference("servo")
 EXPRESSION = Reference("expression")
 FUNCTION = Reference("Python function")
 SLOT = Reference("name of a part of an observation or an action")

@@ -82,6 +82,7 @@ def sensor_rows(
     """
     things, boxes, scene = rows_by_name(task), boxes_by_name(task), scene_of(graph)
     rows, before, rough, rings, orders = list[Row](), 0, 0, 0, [s.name for s in graph.sensors if s.kind.is_order]
+    servos = {actuator.name: number for number, actuator in enumerate(graph.actuators)}
     rays, ray_row, passes, numbers = list[float](), list[int](), list[tuple[int, int]](), list[float]()
     for is_aside, sensor in [(False, each) for each in used] + [(True, each) for each in aside]:
         kind = sensor.kind
@@ -93,7 +94,7 @@ def sensor_rows(
             "turns": not scene.directions.isdisjoint({sensor.name, kind.source}),
             "is_aside": is_aside, "every": 1, "code": code, "length": length,
             "ray": len(rays), "number": len(numbers), "before": before, "held": rough, "ring": rings,
-            "part": orders.index(sensor.name) if kind.is_order else 0, **roughness, **kind.row(scene),
+            "part": orders.index(sensor.name) if kind.is_order else 0, "servo": servos.get(kind.servo, -1), **roughness, **kind.row(scene),
         })  # fmt: skip
         rays += kind.rays
         ray_row += range(sensor.start, sensor.start + len(kind.rays))

@@ -18,7 +18,7 @@ from mindrun.sim.parameter_rows import SAME_IN_EVERY_RUN, Parameters
 
 Array = NDArray[Any]
 Floats = NDArray[np.float32]
-VARYING_COLUMNS = {"thrust": "thrust", "noise": "noise", "slip": "slip", "turn": "range"}  # arguments that may vary
+VARYING_COLUMNS = {"thrust": "thrust", "noise": "noise", "slip": "slip", "turn": "range", "speed": "speed"}  # arguments that may vary
 
 
 @dataclass(slots=True)

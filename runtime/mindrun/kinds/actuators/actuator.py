@@ -6,7 +6,7 @@ from typing import Annotated, Literal, get_args
 
 from mindrun.kinds.bodies.body import BodyKind, Drive, Point
 from mindrun.kinds.environment import Slot
-from mindrun.kinds.registry import base, kind
+from mindrun.kinds.registry import base, kind, left_out
 from mindrun.numbers.quantity import (
     ANGLE,
     INDEX,
@@ -44,6 +44,7 @@ class ActuatorKind:
 
     varying: tuple[str, ...] = ("delay",)  # the arguments that can differ from run to run
     drive: Drive | None = None  # what it does to a body, where it can move one
+    carries = False  # whether a sensor can sit on it and turn with it
     is_light = False  # whether it shines with its command
     reach: float | None = None  # ahead of the body, within which it takes items, in world units; None where none
 
@@ -208,6 +209,8 @@ class Motor(Pushing):
 
 
 DEGREE = pi / 180
+HALF_TURN = Quantity("an angle between 0 and 180 degrees", {"deg": DEGREE}, low=0.0, high=180 * DEGREE)
+TURNING = Quantity("an angle for each tick", {"deg": DEGREE}, low=0.0, high=360 * DEGREE, rate="added")
 TURN = Quantity("an angle between 0 and 80 degrees", {"deg": DEGREE}, low=0.0, high=80 * DEGREE)
 
 
@@ -268,10 +271,23 @@ class Gripper(ActuatorKind):
 
 @kind("actuator", "servo")
 class Servo(ActuatorKind):
-    """A servo: its position as a share of its travel. It moves nothing in the simulated world."""
+    """A servo on the body: 0 is `range` to the left, 0.5 straight ahead, 1 `range` to the right, as a bearing.
+
+    It turns towards its command with `speed`, and what is `on` it turns with it. It is at its neutral when a run
+    begins. A command acts `delay` ticks after the tick that computed it.
+    """
 
     neutral: Annotated[float, RATIO]
     delay: Annotated[int, TICKS] = 0
+    range: Annotated[float, HALF_TURN] = left_out(90 * DEGREE)
+    speed: Annotated[float, TURNING] = left_out(360 * DEGREE)
+
+    varying = ("delay", "range", "speed")
+    carries = True
+
+    def row(self, body: BodyKind) -> Row:
+        """The largest angle, in radians, and how far it turns in a tick."""
+        return {"turn": self.range, "speed": self.speed}
 
 
 @kind("actuator", "lamp")

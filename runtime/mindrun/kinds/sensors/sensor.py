@@ -11,7 +11,7 @@ from mindrun.kinds.registry import arguments, base, named_arguments
 from mindrun.kinds.things.about import AboutThing
 from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.expression import Formula
-from mindrun.numbers.quantity import ANGLE, RATIO, SENSOR, TICKS
+from mindrun.numbers.quantity import ANGLE, RATIO, SENSOR, SERVO, TICKS
 
 if TYPE_CHECKING:
     from mindrun.numbers.arrays import Reader
@@ -110,6 +110,11 @@ class SensorKind(AboutThing):
     def sources(self) -> tuple[str, ...]:
         """All sensors and memories from which it is computed."""
         return (self.source,) if self.source else ()
+
+    @property
+    def servo(self) -> str:
+        """The servo with which it turns, or whose direction it reads; empty for none."""
+        return self.named(SERVO)
 
     @property
     def formula(self) -> Formula:

@@ -1,5 +1,7 @@
 """Act: the commands that the influence makes (Eq. 3), their delays, and the claw; the memory cells when all is done."""
 
+import numpy as np
+
 from mindrun.numbers.arithmetic import (
     COSINE,
     HALF,
@@ -17,7 +19,7 @@ from mindrun.numbers.arithmetic import (
     size_of,
     uniform,
 )
-from mindrun.sim.codes import GRIPPER, ITEM, Tables
+from mindrun.sim.codes import GRIPPER, ITEM, SERVO, Tables
 from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred, is_blocked, is_walled
 from mindrun.sim.state import State
 from mindrun.sim.units import unit, unit_where
@@ -42,6 +44,8 @@ def act(tables: Tables, state: State, lanes: int) -> None:
                 world.grip[i, lane] = 1.0 - slip * uniform(world.random, lane, 0.0, 1.0)
         if actuator.kind == GRIPPER:
             grip(tables, state, i, lanes)
+        if actuator.kind == SERVO:
+            turn(tables, state, i, lanes)
 
 
 def recall(tables, state, lanes):
@@ -94,6 +98,17 @@ def disturb(tables: Tables, state: State, i: int, lanes: int) -> None:
             acting[lane] = clamp(commands[lane] + F(noise[lane]) * F(uniform(world.random, lane, -1.0, 1.0)))
         if actuator.fails >= 0 and world.tick[lane] >= stuck[lane]:
             acting[lane] = actuator.neutral
+
+
+@unit_where(lambda tables: (tables.actuators["kind"] == SERVO).any())
+def turn(tables: Tables, state: State, i: int, lanes: int) -> None:
+    """Turn servo i towards its command, by no more than its speed."""
+    world, actuator = state.world, tables.actuators[i]
+    commands, angles = world.acting[i] if actuator.is_rough else state.mind.commands[i], world.swivel[i]
+    for lane in range(lanes):
+        most = world.numbers[actuator.speed, lane]
+        left = (1.0 - 2.0 * np.float64(commands[lane])) * world.numbers[actuator.turn, lane] - angles[lane]
+        angles[lane] += most if left > most else -most if left < -most else left
 
 
 @unit_where(lambda tables: (tables.actuators["kind"] == GRIPPER).any())
