@@ -104,6 +104,7 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
         case syntax.Fails(name):
             yield name, ("actuator", "sensor")
         case syntax.Outcome(_, event, when):
+            yield from _if_any(line.name if isinstance(line, syntax.Opens) else None, "thing")
             yield from _in_phrase("event", event)
             yield from _in_expressions(*syntax.expressions_in(when))
         case syntax.Counts(event):

@@ -14,7 +14,7 @@ WHOLES = ("body", "skill", "curriculum", "scene")
 NOUNS = (*PARTS, *WHOLES, "task")
 VERBS = (
     "reads", "drives", "influences", "chooses", "stays", "contains", "starts", "draws", "varies", "fails", "lasts",
-    "ends", "succeeds", "rewards", "counts", "teaches",
+    "ends", "succeeds", "opens", "rewards", "counts", "teaches",
 )  # fmt: skip
 SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
 
@@ -279,7 +279,7 @@ class Lasts(Struct, frozen=True):
 
 
 class Outcome(Struct, frozen=True):
-    """The cause of an end: `on [TIMES] EVENT` or `when CONDITION`"""
+    """The cause of an end or of an opening: `on [TIMES] EVENT` or `when CONDITION`"""
 
     times: Amount | None
     event: Phrase | None
@@ -293,6 +293,12 @@ class Ends(Outcome, frozen=True):
 
 class Succeeds(Outcome, frozen=True):
     """`succeeds OUTCOME`"""
+
+
+class Opens(Outcome, frozen=True):
+    """`opens NAME OUTCOME`"""
+
+    name: Name | None = None
 
 
 class Each(Struct, frozen=True):
@@ -344,7 +350,7 @@ class Teaches(Struct, frozen=True):
 
 Fact = (
     Reads | Drives | Influences | Chooses | Stays | Contains | Starts | Draws | Varies | Fails | Lasts | Ends | Succeeds
-    | Rewards | Counts | Teaches
+    | Opens | Rewards | Counts | Teaches
 )  # fmt: skip
 
 

@@ -55,6 +55,7 @@ NAMED: Mapping[type, Mapping[str, str]] = {
     Thing: {"name": "thing"},
     Task: {"name": "task"},
     Failure: {"actuator": "actuator"},
+    End: {"opens": "thing"},
     Draw: {"name": "draw"},
     Lesson: {"curriculum": "curriculum", "skill": "skill", "task": "task", "master": "skill", "starts_from": "skill"},
 }  # the nouns of the fields that are names
@@ -69,6 +70,7 @@ _AROUND_SENTENCE: Mapping[Role, Callable[[str], tuple[str, str]]] = {
     ("skill", "sends"): lambda text: ("influences " if _TITLE.match(text) else "drives ", ""),
     ("task", "ends"): lambda text: ("ends " if text.startswith("when ") else "ends on ", ""),
     ("task", "succeeds"): lambda text: ("ends " if text.startswith("when ") else "ends on ", ""),
+    ("task", "opens"): lambda _: ("opens ", ""),
     ("varying",): lambda _: ("", ""),
     ("rewards", 0): lambda _: ("rewards ", " per tick"),
     ("rewards", 1): lambda _: ("rewards 1 ", ""),

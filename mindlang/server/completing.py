@@ -243,7 +243,7 @@ def _kinds(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
     match nodes:
         case [*_, above, Phrase(kind=kind), name] if kind is name:
             noun = noun_of_kind(above)
-            if noun != "measure" or isinstance(nodes[0], syntax.Rewards | syntax.Ends | syntax.Succeeds):
+            if noun != "measure" or isinstance(nodes[0], syntax.Rewards | syntax.Outcome):
                 yield from kinds_of(noun)
             if noun == "event" and line.start == "stop":
                 yield from words(*ROBOT_WORDS)

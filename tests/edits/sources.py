@@ -396,6 +396,7 @@ def _task(rng: Random, name: str) -> list[str]:
         *(rng.choice(lines) for lines in rng.sample(SPREADS, rng.choice([0, 0, 1, 3]))),
         *rng.choice([[], [], [], *DRAWN]),
         "lasts 600 ticks",
+        *(["opens fence on 2 reach of ball"] if any("fence" in each for each in things) else []),
         rng.choice(["ends on collision", "ends on exhaustion", "ends on 2 collision", "ends when charge < 5%"]),
         *rewards,
         *(["succeeds on 3 reach of ball", "rewards 5 on success"] if rng.random() < 0.3 else []),

@@ -29,7 +29,7 @@ from tests.sim.plain_sensors import sensed
 from tests.sim.plain_strides import MOST, Mover, Solids, Watch, meets, stride
 from tests.sim.plain_walkers import PlainWalkers
 
-TRAIL = 20
+TRAIL, OPENED = 20, 1e30  # ticks; and where a box is that is none
 MOVABLE = Item | LooseBox | Ball
 
 
@@ -40,7 +40,7 @@ class PlainWorld:
         self.graph, self.task, self.runs_down = graph, task, battery
         apart = [thing for thing in task.things if not thing.kind.is_obstacle]
         self.things = [thing for thing in apart for _ in range(thing.kind.copies)]
-        self.places, self.boxes = run.things.copy(), run.boxes
+        self.places, self.boxes = run.things.copy(), run.boxes.copy()
         size = task.scene.size if isinstance(task.scene, Arena) else math.inf
         self.half = tuple(side / 2 for side in (size if isinstance(size, tuple) else (size, size)))
         self.radius = radius_of(graph.body)
@@ -111,7 +111,17 @@ class PlainWorld:
         return [(float(value),) * 2], 0.0
 
     def boxes_of(self, name):
-        """The boxes of obstacles of a name: what always stands there comes first, what is anywhere last."""
+        """The boxes of obstacles of a name that have not been opened."""
+        return [self.boxes[i] for i in self.rows_of(name) if self.boxes[i][0] != OPENED]
+
+    def open(self, name):
+        """Take the obstacles of a name out of the world."""
+        for i in self.rows_of(name):
+            self.boxes[i] = OPENED, OPENED, 0.0, 0.0
+            self.body.open(i)
+
+    def rows_of(self, name):
+        """Which boxes are of a name: what always stands there comes first, what is anywhere last."""
         solid = [thing for thing in self.task.things if thing.kind.is_obstacle]
         fixed = [thing for thing in solid if not isinstance(thing.kind, Obstacle)]
         anywhere = [thing for thing in solid if thing not in fixed and not thing.kind.at and not thing.kind.grid]
@@ -119,7 +129,7 @@ class PlainWorld:
         owners = [
             thing.name for thing in fixed + placed + anywhere for _ in range(thing.kind.obstacles(self.task.scene))
         ]
-        return [box for box, owner in zip(self.boxes, owners, strict=True) if owner == name]
+        return [i for i, owner in enumerate(owners) if owner == name]
 
     def nearest(self, all_of, boxes=()):
         """The place of the nearest of these that have not vanished, or the nearest point of boxes, if any."""
@@ -228,6 +238,13 @@ class PlainWorld:
                     items = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, Item)]
                     near = (i for i in items if self.in_claw(i, actuator.kind.reach))
                     self.held = next((i for i in near if self.has_room(i)), -1)
+
+    def rolling(self, kind):
+        """How fast a wheel or a motor rolls."""
+        body = self.body.body
+        ahead = body.velocity.x * cosine(self.angle) + body.velocity.y * sine(self.angle)
+        out = {"left": -1, "right": 1}.get(getattr(kind, "side", ""), 0) * side_of(self.graph.body)
+        return ahead + out * body.angular_velocity
 
     def has_room(self, i):
         """Whether nothing solid is between the robot and an item in its claw, or in the way there."""
@@ -401,7 +418,9 @@ class PlainWorld:
                 met = happened[end.event] and self.counts[end.event] >= end.times
             else:
                 met = self.value(end.when, readings, self.found, 0) > 0
-            if met:
+            if met and end.opens:
+                self.open(end.opens)
+            elif met:
                 for i, event in enumerate(self.task.events):
                     happened[i] += int(end.succeeds and isinstance(event, Success))
                 return number
@@ -479,8 +498,10 @@ class PlainBody:
         self.space.iterations = 8
         self.space.collision_slop = self.slop
         self.space.use_spatial_hash(20.0, 20)
-        for x, y, wide, high in self.solids.boxes:
-            self.box(x - wide, y - high, x + wide, y + high)
+        self.fixed = [
+            self.box(x - wide, y - high, x + wide, y + high) if x != OPENED else None
+            for x, y, wide, high in self.solids.boxes
+        ]
         if self.solids.half[0] < math.inf:
             (a, b), (c, d) = self.solids.half, (half + 2 for half in self.solids.half)
             for sides in ((-c, -d, -a, d), (a, -d, c, d), (-c, -d, c, -b), (-c, b, c, d)):
@@ -528,7 +549,13 @@ class PlainBody:
     def box(self, left, low, right, high):
         """Something solid."""
         shape = pymunk.Poly(self.space.static_body, [(left, low), (right, low), (right, high), (left, high)])
-        self.add(shape, 1.0)
+        return self.add(shape, 1.0)
+
+    def open(self, i):
+        """A box out of the Space, where it still is in there."""
+        if self.fixed[i]:
+            self.space.remove(self.fixed[i])
+            self.fixed[i] = None
 
     def add(self, shape, friction):
         """A shape of the world or of the robot."""

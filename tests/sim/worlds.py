@@ -42,9 +42,10 @@ OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])
 DENSITY, FRICTION, DAMPING = st.sampled_from([0.1, 0.5]), st.sampled_from([0.0, 0.5, 1.0]), st.sampled_from([0.0, 5.0])
 DELAY = st.sampled_from([0, 0, 1, 2, 5])
 THRUST = st.sampled_from([80.0, 80.0, 200.0, 3000.0, 15.0, -60.0])
+STARTS = st.sampled_from([0.0, 0.0, 0.3, 0.9])
 NOISE, SLIP = st.sampled_from([0.0, 0.0, 0.1]), st.sampled_from([0.0, 0.0, 0.3])
-WHEELS = st.builds(Wheel, st.sampled_from(["left", "right"]), NEUTRAL, THRUST, DELAY, NOISE, SLIP)
-MOTORS = st.builds(Motor, NEUTRAL, THRUST, DELAY, NOISE, SLIP)
+WHEELS = st.builds(Wheel, st.sampled_from(["left", "right"]), NEUTRAL, THRUST, DELAY, NOISE, SLIP, STARTS)
+MOTORS = st.builds(Motor, NEUTRAL, THRUST, DELAY, NOISE, SLIP, STARTS)
 STEERINGS = st.builds(Steering, NEUTRAL, st.sampled_from([0.5, 1.2, 0.0]), DELAY, NOISE)
 THRUSTERS = st.builds(
     Thruster,
@@ -64,6 +65,7 @@ RANGES = {  # of what varies
     "delay": st.sampled_from([(0.0, 3.0), (2.0, 2.0), (1.0, 6.0)]),
     "noise": st.sampled_from([(0.0, 0.1), (0.05, 0.3)]),
     "slip": st.sampled_from([(0.0, 0.5), (0.2, 0.3)]),
+    "starts": st.sampled_from([(0.0, 0.6), (0.2, 0.3)]),
     "lost": st.sampled_from([(0.0, 0.5), (0.9, 1.0)]),
     "range": st.just((0.2, 1.2)),
     "density": st.sampled_from([(0.1, 3.0), (1.0, 1.5)]),
@@ -118,7 +120,7 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
     )
     some = st.lists(st.sampled_from(range(len(events))), unique=True, max_size=3) if events else st.just([])
     ticks = draw(st.integers(1, most))
-    ends = tuple(draw(st.lists(_ends(graph, measures, events, len(draws)), max_size=3)))
+    ends = tuple(draw(st.lists(_ends(graph, measures, events, things, len(draws)), max_size=3)))
     task = Task(
         "World",
         scene,
@@ -305,15 +307,21 @@ def _events(draw: st.DrawFn, scene: SceneKind, things: tuple[Thing, ...]) -> tup
 
 @st.composite
 def _ends(
-    draw: st.DrawFn, graph: Graph, measures: tuple[MeasureKind, ...], events: tuple[EventKind, ...], draws: int
+    draw: st.DrawFn,
+    graph: Graph,
+    measures: tuple[MeasureKind, ...],
+    events: tuple[EventKind, ...],
+    things: tuple[Thing, ...],
+    draws: int,
 ) -> End:
-    """An event, the first time or later, or a condition; a success or not."""
+    """An event, the first time or later, or a condition; a success or not, or what opens something."""
     happening = [number for number, event in enumerate(events) if not event.is_of_success]
-    succeeds = draw(st.booleans())
+    opens = draw(st.sampled_from(["", *2 * [each.name for each in things if each.kind.is_obstacle]]))
+    succeeds = not opens and draw(st.booleans())
     if happening and draw(st.booleans()):
-        return End(draw(st.sampled_from(happening)), draw(st.integers(1, 3)), None, succeeds)
+        return End(draw(st.sampled_from(happening)), draw(st.integers(1, 3)), None, succeeds, opens=opens)
     programs = _programs(graph.width, len(measures), len(graph.actuators), False, draws)
-    return End(None, 1, draw(conditions(programs)), succeeds, "it is so")
+    return End(None, 1, draw(conditions(programs)), succeeds, "it is so", opens)
 
 
 @st.composite

@@ -33,6 +33,7 @@ _FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, type]]] = {
     "starts": (syntax.Starts, {"place": tuple, "facing": Amount}),
     "ends": (syntax.Ends, _OUTCOME),
     "succeeds": (syntax.Succeeds, _OUTCOME),
+    "opens": (syntax.Opens, {"name": Name, **_OUTCOME}),
     "stop": (syntax.Stop, {**_OUTCOME, "tick": syntax.Tick}),
     "rewards": (syntax.Rewards, {"amount": Expression, "on": Phrase, "each": syntax.Each, "when": syntax.When}),
 }

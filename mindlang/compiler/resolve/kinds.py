@@ -65,6 +65,8 @@ def make_kind(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> An
 
 def _known_kinds(noun: str, name: str, scope: Scope) -> str:
     """The hint for a kind that a noun does not have."""
+    if noun == "content" and name == "door":
+        return "A door is a wall that opens: write wall here, and below it opens gate on 2 delivery of key."
     if hint := did_you_mean(name, kinds(noun)):
         return hint
     known = f"Known are {listed(sorted(kinds(noun)), 'and')}."

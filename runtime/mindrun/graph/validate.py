@@ -169,7 +169,10 @@ def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
 
 def _end_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
     """An end is an event or a condition; a success comes of none that it makes itself."""
+    in_the_way = {"", *(thing.name for thing in task.things if thing.kind.is_obstacle)}
     for end in task.ends:
+        if end.opens not in in_the_way or (end.opens and end.succeeds):
+            yield "opens what cannot be opened"
         if (end.event is None) == (end.when is None) or end.times < 1:
             yield "has an end that never comes"
         if end.when is not None and not (

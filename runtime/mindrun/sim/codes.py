@@ -77,7 +77,7 @@ SKILL = _columns(i8="index input inputs outputs hidden width weights own edge ed
 EDGE = _columns(i8="to_skill target output code length when whens other others scope scoped scopes", f4="cuts")
 CODE = _columns(i8="op arg", f8="value")
 ACTUATOR = _columns(
-    i8="kind is_right delay ring is_noisy is_slipping is_rough thrust turn speed noise slip wait fails",
+    i8="kind is_right delay ring is_noisy is_slipping is_sticky is_rough thrust turn speed noise slip starts wait fails",
     f8="ahead aside arm reach",
     f4="neutral",
 )
@@ -95,7 +95,7 @@ OBSTACLE = _columns(i8="columns rows count option options x_row y_row", f8="firs
 MEASURES = _columns(i8="kind thing things of ofs over ring row", f8="beyond")
 PRESENCE = _columns(i8="thing when whens")
 EVENT = _columns(i8="kind thing things to tos arrival columns rows board", f8="patch")
-END = _columns(i8="event times when whens succeeds")
+END = _columns(i8="event times when whens succeeds is_end box boxes")
 REWARD = _columns(i8="code length on each eachs when whens")
 WORLD = _columns(
     i8="linear angular friction mass moment mass_inv moment_inv is_round is_placed is_faced ticks rays master battery "

@@ -243,11 +243,15 @@ def event_rows(task: Task) -> tuple[Array, int, int]:
 
 def end_rows(task: Task, programs: Programs) -> Array:
     """Rows of END; their conditions go to `programs`."""
-    rows: list[Row] = []
+    rows, boxes = list[Row](), {"": NOWHERE, **boxes_by_name(task)}
     for end in task.ends:
         when, whens = programs.add(end.when or ())
         event = -1 if end.event is None else end.event
-        rows.append({"event": event, "times": end.times, "when": when, "whens": whens, "succeeds": end.succeeds})
+        opened = boxes[end.opens]
+        rows.append({
+            "event": event, "times": end.times, "when": when, "whens": whens, "succeeds": end.succeeds,
+            "is_end": not end.opens, "box": opened.start, "boxes": len(opened),
+        })  # fmt: skip
     return records(rows, codes.END)
 
 

@@ -126,15 +126,32 @@ class Pushing(ActuatorKind):
         }  # fmt: skip
 
 
+class Rolling(Pushing):
+    """Pushes by rolling: while it stands still, a command so near to 0.5 as `starts` says pushes nothing."""
+
+    __slots__ = ()
+
+    starts: float
+
+    varying = (*Pushing.varying, "starts")
+
+    def row(self, body: BodyKind) -> Row:
+        """The columns of what pushes, and the share below which it does not start."""
+        own = Pushing.row(self, body)
+        return {**own, "starts": self.starts} if self.starts > 0 else own
+
+
 SIDE = Reference("side", get_args(Side))
 
 
 @kind("actuator", "wheel")
-class Wheel(Pushing):
+class Wheel(Rolling):
     """A wheel on the body's rim: 0 full reverse, 0.5 stopped, 1 full forward; force (2v − 1)·thrust along the heading.
 
     A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less; up to `slip` of the
     force is lost, anew in every tick.
+    As long as it stands still, it does not push for a command that is less than the share `starts` of the way from 0.5
+    to 0 or 1.
     """
 
     side: Annotated[Side, SIDE]
@@ -143,6 +160,7 @@ class Wheel(Pushing):
     delay: Annotated[int, TICKS] = 0
     noise: Annotated[float, RATIO] = 0.0
     slip: Annotated[float, RATIO] = 0.0
+    starts: Annotated[float, RATIO] = left_out(0.0)
 
     drive = "wheel"
 
@@ -192,11 +210,13 @@ class Thruster(Pushing):
 
 
 @kind("actuator", "motor")
-class Motor(Pushing):
+class Motor(Rolling):
     """The drive of a car: 0 full reverse, 0.5 stopped, 1 full forward; force (2v − 1)·thrust along the heading.
 
     A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less; up to `slip` of the
     force is lost, anew in every tick.
+    As long as it stands still, it does not push for a command that is less than the share `starts` of the way from 0.5
+    to 0 or 1.
     """
 
     neutral: Annotated[float, RATIO]
@@ -204,6 +224,7 @@ class Motor(Pushing):
     delay: Annotated[int, TICKS] = 0
     noise: Annotated[float, RATIO] = 0.0
     slip: Annotated[float, RATIO] = 0.0
+    starts: Annotated[float, RATIO] = left_out(0.0)
 
     drive = "motor"
 
