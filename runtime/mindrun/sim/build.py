@@ -94,7 +94,8 @@ def sensor_rows(
             "turns": not scene.directions.isdisjoint({sensor.name, kind.source}),
             "is_aside": is_aside, "every": 1, "code": code, "length": length,
             "ray": len(rays), "number": len(numbers), "before": before, "held": rough, "ring": rings,
-            "part": orders.index(sensor.name) if kind.is_order else 0, "servo": servos.get(kind.servo, -1), **roughness, **kind.row(scene),
+            "part": orders.index(sensor.name) if kind.is_order else 0, "servo": servos.get(kind.servo, -1),
+            **roughness, **kind.row(scene),
         })  # fmt: skip
         rays += kind.rays
         ray_row += range(sensor.start, sensor.start + len(kind.rays))

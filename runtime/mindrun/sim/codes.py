@@ -77,7 +77,8 @@ SKILL = _columns(i8="index input inputs outputs hidden width weights own edge ed
 EDGE = _columns(i8="to_skill target output code length when whens other others scope scoped scopes", f4="cuts")
 CODE = _columns(i8="op arg", f8="value")
 ACTUATOR = _columns(
-    i8="kind is_right delay ring is_noisy is_slipping is_sticky is_rough thrust turn speed noise slip starts wait fails",
+    i8="kind is_right delay ring is_noisy is_slipping is_sticky is_rough thrust turn speed noise slip starts wait "
+    "fails",
     f8="ahead aside arm reach",
     f4="neutral",
 )

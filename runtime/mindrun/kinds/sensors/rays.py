@@ -74,8 +74,8 @@ class Eye(Physical):
     """Distance from the body's rim to a thing, one reading per angle: 0 touching or inside, 1 where the ray meets none.
 
     A range finder that sees all things of that name and no other, obstacles and walls too; whatever is solid before one
-    hides it, but for those of its own name that can be pushed. Angles turn counterclockwise from straight ahead, or from
-    where the servo looks that it is `on`. Of a box that can be pushed it sees the disc in it.
+    hides it, but for those of its own name that can be pushed. Angles turn counterclockwise from straight ahead, or
+    from where the servo looks that it is `on`. Of a box that can be pushed it sees the disc in it.
     """
 
     of: Annotated[str, THING]
