@@ -57,6 +57,12 @@ def boxes_by_name(task: Task) -> dict[str, range]:
     return found
 
 
+def opened_boxes(task: Task) -> set[int]:
+    """The boxes of what opens in some runs of a task."""
+    boxes = boxes_by_name(task)
+    return {box for end in task.ends if end.opens for box in boxes[end.opens]}
+
+
 def hash_numbers(task: Task) -> tuple[int, list[int], list[int]]:
     """The numbers that Chipmunk would give to the shapes of the robot and of each thing, and their places in its hash.
 

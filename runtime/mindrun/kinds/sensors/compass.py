@@ -46,6 +46,7 @@ class Direction(Physical):
 
     circular = True
     scaled = True
+    tells_servo = True
     blank = 0.5
 
     @staticmethod

@@ -75,6 +75,7 @@ class SensorKind(AboutThing):
     looks = False  # whether its readings are how far it is along rays, 1 from `range` on
     scaled = False  # whether its values mean something by themselves, so that they need no calibration
     near: int | None = None  # the reading of what is near
+    tells_servo = False  # whether it reads where its servo looks
     unit = ""  # of a driver that measures the same: m for a length, m/s for a speed
     is_given = False  # whether somebody has to read it: the engine does not compute it
     is_order = False  # whether it is what somebody says
