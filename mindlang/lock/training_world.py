@@ -45,7 +45,7 @@ ARGUMENTS: tuple[Any, ...] = (
     list[tuple[str, str | Number]],  # an expression over readings, of words with a number or a name each
 )
 NAMED = {**dict.fromkeys(("actuator", "memory", "sensor", "thing"), KindForm), "skill": dict[str, str | list[str]]}
-_MAYBE = (("succeeds", list[str], field(default=[])), ("opens", list[str], field(default=[])))
+_MAYBE: tuple[Any, ...] = (("succeeds", list[str], field(default=[])), ("opens", list[str], field(default=[])))
 FORMS = {
     "tick": Annotated[float, Meta(gt=0, lt=1e300)],
     "claw": Number,

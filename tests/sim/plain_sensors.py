@@ -163,7 +163,7 @@ def bumper(world, at, half):
     points = [(sign * walls[0], world.y) for sign in (-1, 1)] + [(world.x, sign * walls[1]) for sign in (-1, 1)]
     for x, y, wide, high in world.boxes:
         points.append((min(x + wide, max(x - wide, world.x)), min(y + high, max(y - high, world.y))))
-    points += [touched_at(world, i) for i in world.body.loose.there]
+    points += [touched_at(world, i) for i in world.body.loose.there if not math.isnan(world.places[i][0])]
     inner = outer = False
     for x, y in points:
         far = math.hypot(x - world.x, y - world.y)

@@ -81,8 +81,7 @@ def sensor_rows(
     What is measured `aside` draws its noise from a generator of its own: a reward changes nothing in the world.
     """
     things, boxes, scene = rows_by_name(task), boxes_by_name(task), scene_of(graph)
-    rows, before, rough, rings, orders = list[Row](), 0, 0, 0, [s.name for s in graph.sensors if s.kind.is_order]
-    servos = {actuator.name: number for number, actuator in enumerate(graph.actuators)}
+    rows, before, rough, rings = list[Row](), 0, 0, 0
     rays, ray_row, passes, numbers = list[float](), list[int](), list[tuple[int, int]](), list[float]()
     for is_aside, sensor in [(False, each) for each in used] + [(True, each) for each in aside]:
         kind = sensor.kind
@@ -94,8 +93,7 @@ def sensor_rows(
             "turns": not scene.directions.isdisjoint({sensor.name, kind.source}),
             "is_aside": is_aside, "every": 1, "code": code, "length": length,
             "ray": len(rays), "number": len(numbers), "before": before, "held": rough, "ring": rings,
-            "part": orders.index(sensor.name) if kind.is_order else 0, "servo": servos.get(kind.servo, -1),
-            **roughness, **kind.row(scene),
+            **_numbers(graph, sensor), **roughness, **kind.row(scene),
         })  # fmt: skip
         rays += kind.rays
         ray_row += range(sensor.start, sensor.start + len(kind.rays))
@@ -115,6 +113,14 @@ def sensor_rows(
         "numbers": np.array(numbers, np.float64),
     }
     return tables, {"before": before, "rough": rough, "rings": rings}
+
+
+def _numbers(graph: Graph, sensor: Sensor) -> Row:
+    """The place of an order among the orders, and that of the servo of a sensor among the actuators; −1 without one."""
+    orders = [each.name for each in graph.sensors if each.kind.is_order]
+    servos = {actuator.name: number for number, actuator in enumerate(graph.actuators)}
+    part = orders.index(sensor.name) if sensor.kind.is_order else 0
+    return {"part": part, "servo": servos.get(sensor.kind.servo, -1)}
 
 
 def _roughness(sensor: Sensor, parameters: Parameters) -> Row:

@@ -101,7 +101,7 @@ class Pushing(ActuatorKind):
     noise: float
     slip: float
 
-    varying = ("thrust", "delay", "noise", "slip")
+    varying: tuple[str, ...] = ("thrust", "delay", "noise", "slip")
 
     def place(self, body: BodyKind) -> Point:
         """The point of the body that it pushes."""
