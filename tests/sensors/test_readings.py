@@ -89,7 +89,7 @@ class Place:
         )  # fmt: skip
         things, seen = int(self.there and not self.of_boxes), len(self.boxes) if self.of_boxes else 0
         row = {"start": 0, "width": prod(kind.shape), "thing": 0, "things": things, "box": 0, "boxes": seen}
-        row |= {"ray": 0, "number": 0}
+        row |= {"ray": 0, "number": 0, "servo": -1}
         scene = SimpleNamespace(tick=TICK, starts={})
         with np.errstate(divide="ignore"):
             plain_lane(kind.lane)(tables, senses, 1, 0, SimpleNamespace(**row, **kind.row(scene)))
