@@ -361,7 +361,7 @@ def test_the_mind_of_these_tests_has_every_kind() -> None:
 TEXTS = [
     ("tick 1/60 s", "tick 1/20 s", "taught with tick 1/60 s, now 1/20 s"),
     ("range 45 deg\n", "range 45 deg speed 2 deg\n", "taught with mast speed 360 deg, now 2 deg"),
-    ("  ends on exhaustion\n", "  ends on exhaustion\n  opens fence on 2 collision\n", "its task has changed: opens fence on 2 collision"),
+    ("  ends on exh", "  opens fence on collision\n  ends on exh", "its task has changed: opens fence on collision"),
     ("tick 1/60 s", "tick 0.3 s", "taught with tick 1/60 s, now 0.3 s"),
     ("range 12", "range 3", "taught with eye range 12, now 3"),
     ("0 30 330 deg", "0 30 331 deg", "taught with eye at 0 30 330 deg, now 0 30 331 deg"),

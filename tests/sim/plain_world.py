@@ -498,10 +498,12 @@ class PlainBody:
         self.space.iterations = 8
         self.space.collision_slop = self.slop
         self.space.use_spatial_hash(20.0, 20)
-        self.fixed = [
-            self.box(x - wide, y - high, x + wide, y + high) if x != OPENED else None
-            for x, y, wide, high in self.solids.boxes
-        ]
+        self.fixed = []
+        for i, (x, y, wide, high) in enumerate(self.solids.boxes):
+            there = (x - wide, y - high, x + wide, y + high) if x != OPENED else (0.0, 0.0, 1.0, 1.0)
+            self.fixed.append(self.box(*there))
+            if x == OPENED:  # it had a number, which others do not get
+                self.open(i)
         if self.solids.half[0] < math.inf:
             (a, b), (c, d) = self.solids.half, (half + 2 for half in self.solids.half)
             for sides in ((-c, -d, -a, d), (a, -d, c, d), (-c, -d, c, -b), (-c, b, c, d)):
