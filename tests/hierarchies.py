@@ -1,7 +1,7 @@
 """Hypothesis strategies for whole hierarchies, their weights and what they read."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from math import pi, prod
 from pathlib import Path
 
@@ -19,7 +19,7 @@ from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.sensors.broken import Broken
 from mindrun.kinds.sensors.bumper import Bumper
 from mindrun.kinds.sensors.claw import Contact, Held
-from mindrun.kinds.sensors.compass import Compass
+from mindrun.kinds.sensors.compass import Compass, Direction
 from mindrun.kinds.sensors.computed import Computed
 from mindrun.kinds.sensors.derived import Average, Derivative, Latch, Mirrored, Reading, Turned
 from mindrun.kinds.sensors.floor import Floor, Inside
@@ -41,8 +41,11 @@ WORLDLY = [
     Bearing("coin", range=5.0, dead_zone=0.1),
     Bearing("rock"),
     Bearing("fence", range=5.0),
+    Bearing("object", on="a1"),
     Compass(),
     Compass(dead_zone=0.1),
+    Direction("a0"),
+    Direction("a1"),
     Contact("object"),
     Contact("coin"),
     Held("object"),
@@ -62,6 +65,8 @@ WORLDLY = [
     Light("crate"),
     Light("ball"),
     Eye("object", at=EYES[:3]),
+    Eye("home", at=EYES[:2], on="a2"),
+    RangeFinder(at=EYES[:3], on="a1"),
     Eye("crate", at=EYES[:3]),
     Eye("ball", at=(0.0, 0.2)),
     Eye("fence", at=(-0.5, 0.0, 0.5, 3.0)),
@@ -97,7 +102,7 @@ ROUGH = st.fixed_dictionaries(
 VIRTUAL = st.sampled_from(
     ["sine", "clock", "derivative", "computed", "latch", "average", "reading", "turned", "mirrored", "broken"]
 )
-ACTUATORS = [Wheel("left", 0.5), Wheel("right", 0.5, delay=2), Gripper(0.0), Servo(0.3)]
+ACTUATORS = [Wheel("left", 0.5), Wheel("right", 0.5, delay=2), Gripper(0.0), Servo(0.3), Servo(0.4, 0, 1.2, 0.3)]
 CALLED = Procedure("")
 PROCEDURES = Path(__file__).parent / "procedures"  # the folder of the modules that are called
 SCALES = [0.1, 0.3, 0.3, 1.0, 10.0, 1e4, 1e20, 3e38]
@@ -121,6 +126,7 @@ def random_graph(draw: st.DrawFn, fewest_hidden: int = 0, alike: bool = True) ->
     sensors, memories = draw(_senses())
     width = sum(sensor.width for sensor in sensors) + len(memories)
     actuators = tuple(Actuator(f"a{i}", draw(st.sampled_from(ACTUATORS))) for i in range(draw(st.integers(1, 3))))
+    sensors = draw(on_servos(sensors, actuators))
     count = draw(st.integers(1, 6))
     skills = []
     for number in range(count):
@@ -141,6 +147,22 @@ def _about(sensor: Sensor, skills: list[Skill]) -> Sensor:
     """A sensor that is about a skill that is there, if it is about any."""
     is_there = not isinstance(sensor.kind, Broken) or sensor.kind.broken in {skill.name for skill in skills}
     return sensor if is_there else replace(sensor, kind=replace(sensor.kind, broken="S0"))
+
+
+@st.composite
+def on_servos(draw: st.DrawFn, sensors: tuple[Sensor, ...], actuators: tuple[Actuator, ...]) -> tuple[Sensor, ...]:
+    """Sensors whose servos are among the actuators: some sit on others than they did, or on none."""
+    servos = [actuator.name for actuator in actuators if actuator.kind.carries]
+    found = []
+    for sensor in sensors:
+        kind = sensor.kind
+        if isinstance(kind, Direction):
+            said = {each.name: getattr(kind, each.name) for each in fields(Physical)}
+            kind = replace(kind, of=draw(st.sampled_from(servos))) if servos else Compass(**said)
+        elif kind.servo or (hasattr(kind, "on") and draw(st.booleans())):
+            kind = replace(kind, on=draw(st.sampled_from(servos or [""])))
+        found.append(replace(sensor, kind=kind))
+    return tuple(found)
 
 
 @st.composite

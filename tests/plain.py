@@ -6,7 +6,7 @@ import operator
 import numpy as np
 from mindrun.kinds.functions.procedure import Procedure
 from mindrun.kinds.sensors.broken import Broken
-from mindrun.kinds.sensors.compass import Compass
+from mindrun.kinds.sensors.compass import Compass, Direction
 from mindrun.kinds.sensors.computed import Computed
 from mindrun.kinds.sensors.derived import Average, Derivative, Mirrored, Reading, Turned
 from mindrun.kinds.sensors.nearest import Bearing
@@ -233,7 +233,7 @@ def turns(part, parts):
             return turns(parts[of], parts)
         case Computed(at=formula):
             return is_turned(formula, parts)
-    return isinstance(part.kind, Bearing | Compass)
+    return isinstance(part.kind, Bearing | Compass | Direction)
 
 
 def is_turned(formula, parts):

@@ -60,6 +60,7 @@ OF_KINDS: Mapping[tuple[str, str], Draw] = {
     ("sensor", "eye"): _titled(around.rays, _angles(-60, -30, 0, 30, 60), 12.0, GEM_PLACES, svg.ORANGE),
     ("sensor", "bearing"): _titled(around.dial, "what it reads of a thing there"),
     ("sensor", "compass"): _titled(around.dial, "what it reads with north there"),
+    ("sensor", "direction"): _titled(around.dial, "what it reads of a servo that looks there"),
     ("sensor", "bumper"): _titled(around.sectors, _angles(-45, 0, 45), *_angles(45), 2),
     ("sensor", "floor"): _titled(around.spots, (0.5, 0.0, -0.5), 2.0),
     ("sensor", "average"): _computed("average", of="moving", over=30),

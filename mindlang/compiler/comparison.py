@@ -154,7 +154,7 @@ def _parts(header: syntax.Header, of: Any) -> tuple[Any, dict[str, Sequence[Any]
             return of.function, {"reads": of.reads, "drives influences": of.edges, **how, **_promised(of)}
         case Task():
             starts = [of.start] * bool(syntax.of_form(of.facts, syntax.Starts))
-            judged = {"lasts": [of.ticks], "ends succeeds": of.ends, "rewards": of.rewards, "counts": of.counts}
+            judged = {"lasts": [of.ticks], "ends succeeds opens": of.ends, "rewards": of.rewards, "counts": of.counts}
             world = {"contains": of.things, "starts": starts, "draws": of.draws, "varies": of.varies, "fails": of.fails}
             return of.scene, judged | world
         case Part():

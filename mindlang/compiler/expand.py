@@ -2,8 +2,8 @@
 
 Whatever is written out keeps the place where it was said, so that a mistake in it is reported there. Where a scene or
 task says more than the one that it is like, a line replaces the one of the same thing: a thing the one of its name, an
-event that ends, succeeds or is counted the same event, however many times it was to happen, a reward the one on the
-same event or of the same readings and measures under the same condition.
+event that ends, succeeds, opens or is counted the same event, however many times it was to happen, a reward the one on
+the same event or of the same readings and measures under the same condition.
 """
 
 import re
@@ -159,7 +159,8 @@ def _subject(fact: Fact) -> Hashable:
         case syntax.Varies(argument, of):
             about = argument.text, of.text
         case syntax.Outcome(_, event, when):
-            about = _text(event), _text(when)
+            opened = (fact.name.text,) if isinstance(fact, syntax.Opens) and fact.name else ()
+            about = *opened, _text(event), _text(when)
         case syntax.Counts(event):
             about = (_text(event),)
         case syntax.Rewards(amount, None, each, when):

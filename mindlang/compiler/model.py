@@ -139,13 +139,17 @@ class Reward(Struct, frozen=True):
 
 
 class End(Struct, frozen=True):
-    """An end of a run, as a success or not: the `times`th occurrence of an event, or a condition."""
+    """An end of a run, as a success or not: the `times`th occurrence of an event, or a condition.
+
+    One that `opens` something in the way ends no run: it takes that out of the world.
+    """
 
     event: EventKind | None
     times: int
     when: syntax.When | None
     succeeds: bool
-    fact: syntax.Ends | syntax.Succeeds
+    fact: syntax.Ends | syntax.Succeeds | syntax.Opens
+    opens: str = ""
 
 
 class Task(Struct, frozen=True):

@@ -106,6 +106,7 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
         case syntax.Fails(name):
             yield name, ("actuator", "sensor")
         case syntax.Outcome(event=event) | syntax.Counts(event):
+            yield from _if_any(line.name if isinstance(line, syntax.Opens) else None, "thing")
             yield from _in_phrase("event", event)
             yield from _in_expressions(*syntax.expressions_in(line))
         case syntax.Rewards(amount, on, each, when):
@@ -159,6 +160,8 @@ def _in_arguments(written: Iterable[syntax.Argument], classes: Iterable[type[Any
                 yield value, READABLE_NOUNS
             case Name(), Noun(noun="skill"):
                 yield value, ("skill",)
+            case Name(), Noun(noun="servo"):
+                yield value, ("actuator",)
             case Name(), Quantity():
                 yield value, ("number",)
             case Name(), None if key == "from":

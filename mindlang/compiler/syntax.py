@@ -14,7 +14,7 @@ WHOLES = ("body", "skill", "curriculum", "scene")
 NOUNS = (*PARTS, *WHOLES, "task")
 VERBS = (
     "reads", "drives", "influences", "chooses", "stays", "uses", "requires", "maintains", "achieves", "contains",
-    "starts", "draws", "varies", "fails", "lasts", "ends", "succeeds", "rewards", "counts", "teaches",
+    "starts", "draws", "varies", "fails", "lasts", "ends", "succeeds", "opens", "rewards", "counts", "teaches",
 )  # fmt: skip
 SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
 
@@ -302,7 +302,7 @@ class Lasts(Struct, frozen=True):
 
 
 class Outcome(Struct, frozen=True):
-    """The cause of an end: `on [TIMES] EVENT` or `when CONDITION`"""
+    """The cause of an end or of an opening: `on [TIMES] EVENT` or `when CONDITION`"""
 
     times: Amount | None
     event: Phrase | None
@@ -316,6 +316,12 @@ class Ends(Outcome, frozen=True):
 
 class Succeeds(Outcome, frozen=True):
     """`succeeds OUTCOME`"""
+
+
+class Opens(Outcome, frozen=True):
+    """`opens NAME OUTCOME`"""
+
+    name: Name | None = None
 
 
 class Each(Struct, frozen=True):
@@ -367,8 +373,7 @@ class Teaches(Struct, frozen=True):
 
 Fact = (
     Reads | Drives | Influences | Chooses | Stays | Uses | Promise | Contains | Starts | Draws | Varies | Fails | Lasts
-    | Ends
-    | Succeeds | Rewards | Counts | Teaches
+    | Ends | Succeeds | Opens | Rewards | Counts | Teaches
 )  # fmt: skip
 
 

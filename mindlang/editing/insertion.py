@@ -12,14 +12,17 @@ INDENT = "  "
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "scene", "task", "curriculum")  # in the order of a file
 FACTS: tuple[type[Fact], ...] = (
     *(syntax.Draws, syntax.Contains, syntax.Starts, syntax.Varies, syntax.Fails, syntax.Lasts, syntax.Ends),
-    *(syntax.Succeeds, syntax.Reads, syntax.Drives, syntax.Influences, syntax.Chooses, syntax.Stays, syntax.Uses),
-    *(syntax.Requires, syntax.Maintains, syntax.Achieves),
+    *(syntax.Succeeds, syntax.Opens, syntax.Reads, syntax.Drives, syntax.Influences, syntax.Chooses, syntax.Stays),
+    *(syntax.Uses, syntax.Requires, syntax.Maintains, syntax.Achieves),
     *(syntax.Rewards, syntax.Counts, syntax.Teaches),
 )  # in the order of a declaration
 
 OWNERS = {  # below which declarations the facts of each verb stand
     "skill": ("reads", "drives", "influences", "chooses", "stays", "uses", "requires", "maintains", "achieves"),
-    "task": ("lasts", "ends", "succeeds", "rewards", "counts", "contains", "starts", "draws", "varies", "fails"),
+    "task": (
+        *("lasts", "ends", "succeeds", "opens", "rewards", "counts"),
+        *("contains", "starts", "draws", "varies", "fails"),
+    ),
     "scene": ("contains", "starts", "draws", "varies", "fails"),
     "curriculum": ("teaches",),
 }

@@ -30,7 +30,7 @@ from mindrun.graph.graph import (
     Variation,
 )
 from mindrun.kinds.registry import arguments, names
-from mindrun.numbers.quantity import EXPRESSION, SENSOR, SKILL, THING, Quantity, Reference
+from mindrun.numbers.quantity import EXPRESSION, SENSOR, SERVO, SKILL, THING, Quantity, Reference
 
 from mindlang.compiler.names import Names
 from mindlang.compiler.parse.shape import parse_line
@@ -56,6 +56,7 @@ NAMED: Mapping[type, Mapping[str, str]] = {
     Thing: {"name": "thing"},
     Task: {"name": "task"},
     Failure: {"actuator": "actuator"},
+    End: {"opens": "thing"},
     Draw: {"name": "draw"},
     Lesson: {"curriculum": "curriculum", "skill": "skill", "task": "task", "master": "skill", "starts_from": "skill"},
 }  # the nouns of the fields that are names
@@ -71,6 +72,7 @@ _AROUND_SENTENCE: Mapping[Role, Callable[[str], tuple[str, str]]] = {
     ("skill", "sends"): lambda text: ("influences " if _TITLE.match(text) else "drives ", ""),
     ("task", "ends"): lambda text: ("ends " if text.startswith("when ") else "ends on ", ""),
     ("task", "succeeds"): lambda text: ("ends " if text.startswith("when ") else "ends on ", ""),
+    ("task", "opens"): lambda _: ("opens ", ""),
     ("varying",): lambda _: ("", ""),
     ("rewards", 0): lambda _: ("rewards ", " per tick"),
     ("rewards", 1): lambda _: ("rewards 1 ", ""),
@@ -236,6 +238,8 @@ def _argument(value: Any, meaning: Quantity | Reference | None, name: Name) -> A
         return name(value, *READABLE_NOUNS)
     if meaning == SKILL:
         return name(value, "skill")
+    if meaning == SERVO:
+        return name(value, "actuator")
     if meaning == EXPRESSION:
         new = ((word, name(x, *READABLE_NOUNS) if isinstance(x, str) else x) for word, x in value)
         return type(value)(map(type(value), new))

@@ -23,7 +23,7 @@ SHAPES = {
     "span": "{}, or a range of it",
     "extent": "{}, or two",
 }
-DECLARED = ("thing", "sensor", "skill")  # what has a name in a mind
+DECLARED = ("thing", "sensor", "servo", "skill")  # what has a name in a mind
 LEAST_SAID, MOST_SAID, MOST_DEGREES = 1e-3, 99_999.0, 360.0  # bounds beyond these are for machines
 UNLIMITED_NAMES = ("between", "at least", "up to")  # of quantities that say their bounds themselves
 

@@ -46,13 +46,12 @@ ARGUMENTS: tuple[Any, ...] = (
 )
 SKILL = dict[str, str | list[str] | dict[str, str]]  # the files that a procedure uses have a hash each
 NAMED = {**dict.fromkeys(("actuator", "memory", "sensor", "thing"), KindForm), "skill": SKILL}
+_MAYBE: tuple[Any, ...] = (("succeeds", list[str], field(default=[])), ("opens", list[str], field(default=[])))
 FORMS = {
     "tick": Annotated[float, Meta(gt=0, lt=1e300)],
     "claw": Number,
     "body": KindForm,
-    "task": _table(
-        "Task", ("scene", KindForm), ("ticks", Number), ("ends", list[str]), ("succeeds", list[str], field(default=[]))
-    ),
+    "task": _table("Task", ("scene", KindForm), ("ticks", Number), ("ends", list[str]), *_MAYBE),
     "environment": _table("Environment", ("text", str)),
     "physics": _table("Physics", ("pymunk", str), ("world", int)),
     "start": _table("Start", ("at", ArgumentForm), ("facing", ArgumentForm)),

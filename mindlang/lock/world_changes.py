@@ -155,6 +155,8 @@ def _scene_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[s
         gone, new = _gone_and_new(old, now, verb)
         for end, said in [*((end, f"no longer {verb}") for end in gone), *((end, verb) for end in new)]:
             yield f"{said} {end}" if end.startswith("when ") else f"{said} on {end}"
+    gone, new = _gone_and_new(old, now, "opens")
+    yield from (*(f"no longer opens {each}" for each in gone), *(f"opens {each}" for each in new))
 
 
 def _reward_changes(old: Sequence[Sequence[str]], now: Sequence[Sequence[str]]) -> Iterator[str]:

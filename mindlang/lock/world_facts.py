@@ -78,8 +78,9 @@ class Worlds:
         yield "tick", self.graph.tick
         yield "body", encode(self.graph.body)
         ends, successes = (sorted(self._ends(task, succeeds)) for succeeds in (False, True))
+        opens = sorted(self._ends(task, False, True))
         said = {"scene": encode(task.scene), "ticks": task.ticks, "ends": ends}
-        yield "task", said | ({"succeeds": successes} if successes else {})
+        yield "task", said | ({"succeeds": successes} if successes else {}) | ({"opens": opens} if opens else {})
         if path := module_beside(task.scene.environment, self.folder):
             yield "environment", {"text": sha256(path.read_bytes()).hexdigest()}
         if not task.scene.environment:
@@ -117,8 +118,9 @@ class Worlds:
         for memory in self.graph.memories:
             if memory.name in sources | driven:
                 yield f"memory {memory.name}", encode(memory.kind)
+        carrying = {sensor.kind.servo for sensor in self.graph.sensors if sensor.name in sources}
         for actuator in self.graph.actuators:
-            if actuator.name in driven or actuator.kind.acts_at_rest:
+            if actuator.name in driven | carrying or actuator.kind.acts_at_rest:
                 yield f"actuator {actuator.name}", encode(actuator.kind)
         if any(thing.kind.can_be_delivered for thing in task.things):
             yield "claw", self.graph.claw_reach
@@ -177,13 +179,15 @@ class Worlds:
             data = b""
         return sha256(data).hexdigest() if data else ""
 
-    def _ends(self, task: Task, succeeds: bool) -> Iterator[str]:
-        """The ends of a run: those that are a success, or those that are none."""
+    def _ends(self, task: Task, succeeds: bool, opens: bool = False) -> Iterator[str]:
+        """The ends of a run that are a success, or those that are none; or what `opens` something, with its name."""
         for end in task.ends:
-            if end.succeeds == succeeds:
+            if end.succeeds == succeeds and bool(end.opens) == opens:
                 times = f"{end.times} " if end.times > 1 else ""
-                event = "" if end.event is None else phrase(task.events[end.event])
-                yield f"{times}{event}" if event else f"when {infix(end.when or (), self._leaf_of(task))}"
+                on = f"{end.opens} on " if opens else ""
+                event = "" if end.event is None else f"{on}{times}{phrase(task.events[end.event])}"
+                when = f"{end.opens} when " if opens else "when "
+                yield event or f"{when}{infix(end.when or (), self._leaf_of(task))}"
 
     def _drawn(self, task: Task) -> Iterator[str]:
         """The numbers that a task draws, and the things that these place or that they let be there, as lines of it."""

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import numpy as np
+from mindrun.graph.named_readings import servo_reading
 from mindrun.kinds.actuators.actuator import ActuatorKind
 from mindrun.kinds.sensors.sensor import SensorKind
 
@@ -112,19 +113,28 @@ def _claw(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
 
 
 def _rays(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """Draw each ray as far as it went."""
+    """Draw each ray as far as it went; of those that a servo turns, where a sensor says how far it has turned."""
     x, y, angle = run.body[tick]
     for kind, readings in _sensed(run, tick):
+        turned = _turned(run, kind, tick)
         for at, reading in zip(kind.rays, readings, strict=False):
             # How far an eye saw is not known: something may be in the way; nor what was not measured.
-            if np.isnan(reading) or (kind.thing and reading == 1.0):
+            if np.isnan(reading + turned) or (kind.thing and reading == 1.0):
                 continue
-            way = np.array([np.cos(angle + at), np.sin(angle + at)])
-            rim = run.graph.body.rim(at)
+            way = np.array([np.cos(angle + at + turned), np.sin(angle + at + turned)])
+            rim = run.graph.body.rim(at + turned)
             end = (x, y) + way * (rim + reading * kind.reach)
             canvas.line([(x, y) + way * rim, end], theme.ray, 1.0, 0.3 + 0.4 * (reading < 1.0))
             if reading < 1.0:
                 canvas.disc(end[0], end[1], RAY_END_PIXELS * canvas.pixel, theme.ray)
+
+
+def _turned(run: RecordedRun, kind: SensorKind, tick: int) -> float:
+    """The angle by which the servo has turned that a sensor is on; NaN where nobody knows it."""
+    if not kind.servo:
+        return 0.0
+    told = servo_reading(run.graph, kind)
+    return np.nan if told is None else 2 * np.pi * (0.5 - float(run.readings[tick - 1, told]))
 
 
 def _touches(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:

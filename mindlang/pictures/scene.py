@@ -10,6 +10,7 @@ import numpy as np
 from mindrun.graph.graph import Thing
 from mindrun.kinds.registry import names
 from mindrun.kinds.scenes.scene import SceneKind
+from mindrun.sim.task_rows import opened_boxes
 from numpy.typing import ArrayLike, NDArray
 
 from mindlang.pictures.canvas import Canvas, Region, Viewport, blank, rectangle_corners, text_width
@@ -34,7 +35,7 @@ def to_world(points: ArrayLike, pose: Floats) -> Floats:
 
 
 def empty_world(run: RecordedRun, theme: Theme, view: Viewport, width: int, height: int, pen: float = 1.0) -> Canvas:
-    """An image of the floor with a line every ten units, the walls and the obstacles."""
+    """An image of the floor with a line every ten units, the walls and the obstacles; of what opens the rim alone."""
     canvas = Canvas(blank(width, height, theme.page if run.task.scene.is_bounded else theme.floor), view, pen)
     left, right, low, high = view.left, view.left + width / view.scale, view.top - height / view.scale, view.top
     if run.task.scene.is_bounded:
@@ -48,8 +49,9 @@ def empty_world(run: RecordedRun, theme: Theme, view: Viewport, width: int, heig
         canvas.line([(left, y), (right, y)], theme.grid)
     for box in run.boxes:
         canvas.line(rectangle_corners(*box), theme.rock_edge, 2.4, closed=True)
-    for box in run.boxes:
-        canvas.polygon(rectangle_corners(*box), theme.rock)
+    opened = opened_boxes(run.task)
+    for number, box in enumerate(run.boxes):
+        canvas.polygon(rectangle_corners(*box), theme.floor if number in opened else theme.rock)
     return canvas
 
 

@@ -249,7 +249,7 @@ def _kinds(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
     match nodes:
         case [*_, above, Phrase(kind=kind), name] if kind is name:
             noun = noun_of_kind(above)
-            if noun != "measure" or isinstance(nodes[0], syntax.Rewards | syntax.Ends | syntax.Succeeds):
+            if noun != "measure" or isinstance(nodes[0], syntax.Rewards | syntax.Outcome):
                 yield from kinds_of(noun)
             if noun == "event" and line.start == "stop":
                 yield from words(*ROBOT_WORDS)
@@ -279,6 +279,8 @@ def _arguments(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
         case key, registry.Argument(type=Reference(noun="thing")):
             yield from words(*[ROBOT] * (said.noun == "content"))
             yield from things(line.view, line.owner, about(said.noun, said.kind, key))
+        case _, registry.Argument(type=Reference(noun="servo")):
+            yield from names(line.view, "actuator")
         case _, registry.Argument(type=meaning) if meaning == FUNCTION:
             yield from (Offer(name, "function") for name in functions(line.folder))
         case _, registry.Argument(type=Reference(words=allowed)):

@@ -5,10 +5,10 @@ from typing import Any, NamedTuple
 
 from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Graph, Skill, Task
-from mindrun.graph.named_readings import reading_names
+from mindrun.graph.named_readings import reading_names, servo_reading
 from mindrun.graph.recording_header import About, RecordedWorld
 from mindrun.kinds.registry import names
-from mindrun.sim.task_rows import things_of
+from mindrun.sim.task_rows import opened_boxes, things_of
 
 from mindlang.pictures.scene import half_sides, thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, code
@@ -141,6 +141,7 @@ def _world(graph: Graph, task: Task, world: RecordedWorld, columns: Columns) -> 
     return {
         "arena": [*half_sides(task.scene)] if task.scene.is_bounded else None,
         "boxes": [[*box] for box in world.boxes],
+        "doors": sorted(opened_boxes(task)),
         "things": [
             {
                 "name": shown(thing.name),
@@ -169,14 +170,19 @@ def _sensing(graph: Graph, columns: Columns) -> Data:
     for sensor in graph.sensors:
         kind, name = sensor.kind, shown(sensor.name)
         read = [columns["readings"].column(sensor.start + number) for number in range(sensor.width)]
+        told = servo_reading(graph, kind)
+        if kind.servo and told is None:
+            continue  # nobody knows where it looks
+        turned = None if told is None else columns["readings"].column(told)
         for angle, column in zip(kind.rays, read, strict=False):
             ray = {"angle": angle, "rim": graph.body.rim(angle), "reach": kind.reach, "column": column}
+            ray["turned"] = turned
             found["rays"].append({**ray, "name": name, "sees": bool(kind.thing)})
         found["spots"] += [{"x": x, "y": y, "column": at} for (x, y), at in zip(kind.spots, read, strict=False)]
         for angle, column in zip(kind.directions if kind.sector else (), read, strict=False):
             found["switches"].append({"angle": angle, "width": kind.sector, "column": column})
         if kind.circular and kind.thing:
-            found["bearings"].append({"name": name, "column": read[0]})
+            found["bearings"].append({"name": name, "column": read[0], "turned": turned})
     return found
 
 

@@ -37,6 +37,10 @@ MAST = [
     "actuator mast is lamp neutral 0",
     "actuator mast is lamp neutral 10%",
 ]
+SERVOS = {
+    "pan": ["actuator pan is servo neutral 0.5", "actuator pan is servo neutral 1/2 range 45 deg speed 90 deg per s"],
+    "tilt": ["actuator tilt is servo neutral 50% speed 2 deg"],
+}
 WHEELS = {
     "left_wheel": [
         "actuator left_wheel is wheel side left thrust 80 neutral 0.5",
@@ -62,16 +66,18 @@ ROBOTS = [  # a body, and what moves it
     ("body Robot is car", STEERED),
     ("body Robot is car size 2 1.5", STEERED),
 ]
-ACTUATORS = {**WHEELS, "claw": CLAW, "mast": MAST}
+ACTUATORS = {**WHEELS, **SERVOS, "claw": CLAW, "mast": MAST}
 SENSORS = {
     "eye": [
         "sensor eye is range_finder at 0 30 330 deg",
         "sensor eye is range_finder at -30 deg 0 deg 30 deg range 12",
         "sensor eye is range_finder at 30 to -30 by 15 deg",
+        "sensor eye is range_finder at 0 20 deg on tilt",
     ],
     "charge": ["sensor charge is battery"],
     "beat": ["sensor beat is sine period 2 s", "sensor beat is sine period 0.5 s"],
-    "ball_bearing": ["sensor ball_bearing is bearing of ball", "sensor ball_bearing is bearing of nest"],
+    "ball_bearing": ["sensor ball_bearing is bearing of ball on pan", "sensor ball_bearing is bearing of nest"],
+    "gaze": ["sensor gaze is direction of pan", "sensor gaze is direction of tilt"],
     "drift": ["sensor drift is derivative of ball_bearing", "sensor drift is derivative of north"],
     "mood": ["memory mood is cell decay 0.9", "memory mood is cell decay 95%"],
     "north": ["sensor north is compass"],
@@ -83,7 +89,7 @@ SENSORS = {
     "moving": ["sensor moving is inertial"],
     "way": ["sensor way is distance of ball", "sensor way is distance of nest range 9"],
     "glow": ["sensor glow is light of ball", "sensor glow is light of dock range 4"],
-    "camera": ["sensor camera is eye of ball at -30 30 deg", "sensor camera is eye of nest at 0 40 deg range 9"],
+    "camera": ["sensor camera is eye of ball at -30 30 deg", "sensor camera is eye of nest at 0 40 deg on pan"],
     "turning": ["sensor turning is turn_rate", "sensor turning is turn_rate range 90 deg dead_zone 1%"],
     "pace": ["sensor pace is speed", "sensor pace is speed range 3 dead_zone 2%"],
     "rolled": ["sensor rolled is odometer side left", "sensor rolled is odometer side right range 4"],
@@ -250,7 +256,7 @@ def _declarations(rng: Random) -> list[list[str]]:
     skills = rng.sample(SKILLS, rng.randint(1, 6))
     functions = {skill: rng.choice([*FUNCTIONS, "rule", "rule"]) for skill in skills}
     body, drives = rng.choice([*ROBOTS[:2], *ROBOTS])
-    choices = [*drives.values(), CLAW, MAST, *SENSORS.values()]
+    choices = [*drives.values(), *SERVOS.values(), CLAW, MAST, *SENSORS.values()]
     parts = [*(rng.choice(lines) for lines in choices), body]
     blocks = [[_more(rng, line.split()[0], line)] for line in parts]
     blocks += [_skill(rng, skill, functions[skill], skills[place + 1 :]) for place, skill in enumerate(skills)]
@@ -293,6 +299,7 @@ def _more(rng: Random, noun: str, line: str) -> str:
         words += ["seeks", "flees", "range"]  # of what there is
     words += ["size"] * (noun == "body")  # and there is as much room for the robot
     words += ["neutral"] * (kind == "order")  # which has to be one of them
+    words += ["on"]  # of which there are servos
     often = 0.5 if noun in ("curriculum", "body", "actuator") else 0.2
     for argument in arguments(kinds(noun)[kind]):
         if not argument.required and argument.key not in words and rng.random() < often:
@@ -399,6 +406,7 @@ def _task(rng: Random, name: str) -> list[str]:
         *(rng.choice(lines) for lines in rng.sample(SPREADS, rng.choice([0, 0, 1, 3]))),
         *rng.choice([[], [], [], *DRAWN]),
         "lasts 600 ticks",
+        *(["opens fence on 2 reach of ball"] if any("fence" in each for each in things) else []),
         rng.choice(["ends on collision", "ends on exhaustion", "ends on 2 collision", "ends when charge < 5%"]),
         *rewards,
         *(["succeeds on 3 reach of ball", "rewards 5 on success"] if rng.random() < 0.3 else []),

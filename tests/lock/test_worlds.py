@@ -34,7 +34,7 @@ body Robot is disc
 actuator left_wheel is wheel side left neutral 0.5
 actuator right_wheel is wheel side right neutral 0.5
 actuator claw is gripper neutral 0
-actuator mast is servo neutral 0.5
+actuator mast is servo neutral 0.5 range 45 deg
 actuator light is lamp neutral 0
 sensor eye is range_finder at 0 30 330 deg range 12
 sensor ball_bearing is bearing of ball
@@ -63,6 +63,7 @@ sensor hungry is latch of charge below 20% above 80%
 sensor calm is average of moving over 30 ticks
 sensor ahead is reading 1 of eye
 sensor wish is order 0 to 2
+sensor gaze is direction of mast
 sensor fear is range_finder at 0 deg range 3
 memory mood is cell decay 0.9
 
@@ -102,6 +103,7 @@ skill Watch is rule
   reads calm
   reads ahead
   reads wish
+  reads gaze
   drives mast at way * glow
 
 skill Turn is procedure from turn.by
@@ -362,6 +364,8 @@ def test_the_mind_of_these_tests_has_every_kind() -> None:
 
 TEXTS = [
     ("tick 1/60 s", "tick 1/20 s", "taught with tick 1/60 s, now 1/20 s"),
+    ("range 45 deg\n", "range 45 deg speed 2 deg\n", "taught with mast speed 360 deg, now 2 deg"),
+    ("  ends on exh", "  opens fence on collision\n  ends on exh", "its task has changed: opens fence on collision"),
     ("tick 1/60 s", "tick 0.3 s", "taught with tick 1/60 s, now 0.3 s"),
     ("range 12", "range 3", "taught with eye range 12, now 3"),
     ("0 30 330 deg", "0 30 331 deg", "taught with eye at 0 30 330 deg, now 0 30 331 deg"),

@@ -89,7 +89,7 @@ class Place:
         )  # fmt: skip
         things, seen = int(self.there and not self.of_boxes), len(self.boxes) if self.of_boxes else 0
         row = {"start": 0, "width": prod(kind.shape), "thing": 0, "things": things, "box": 0, "boxes": seen}
-        row |= {"ray": 0, "number": 0}
+        row |= {"ray": 0, "number": 0, "servo": -1}
         scene = SimpleNamespace(tick=TICK, starts={})
         with np.errstate(divide="ignore"):
             plain_lane(kind.lane)(tables, senses, 1, 0, SimpleNamespace(**row, **kind.row(scene)))
@@ -198,7 +198,7 @@ def test_what_it_reads(kind: SensorKind, place: Place, reads: list[float]) -> No
     assert place.reads(kind) == pytest.approx(reads, abs=1e-6)
 
 
-PURE = [kind for kind in WORLDLY if not type(kind).__name__.startswith(("Range", "Inertial", "Battery"))]
+PURE = [kind for kind in WORLDLY if not type(kind).__name__.startswith(("Range", "Inertial", "Battery", "Direction"))]
 PURE += [Clock(0.3), Clock(TICK), Clock(2.0)]
 
 
@@ -255,7 +255,7 @@ def test_compiled_lanes_read_the_bits_of_plain_python(
             **before, readings=plain, nearest=np.zeros((THING_ROWS, 1)), sight=state.sight.sight,
             nearest_of=np.array([-1]), frame=np.zeros((FRAME_ROWS, 1), F),
             boxes=state.world.boxes, nearby=state.sight.nearby, nearby_count=state.sight.nearby_count,
-            seed=state.world.seed, active=np.zeros(1, np.uint64),
+            seed=state.world.seed, active=np.zeros(1, np.uint64), swivel=state.world.swivel,
         )  # fmt: skip
         with np.errstate(all="ignore"):
             for row, kind in zip(rows["sensors"], chosen, strict=True):

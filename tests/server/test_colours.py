@@ -28,7 +28,7 @@ TOKENS = {
     "ITS": FUNCTION,
     "ENVIRONMENT": "string.unquoted",
     **dict.fromkeys(("COMPUTED", "NUMBERED", "SEVERAL", "ORDERED", "BROKEN", "GYMNASIUM"), KIND),
-    **dict.fromkeys(("FROM", "TO", "BY", "FACING", "AT"), KEY),
+    **dict.fromkeys(("FROM", "TO", "BY", "ON", "FACING", "AT"), KEY),
     **dict.fromkeys(("EXTREME", "AND", "OR", "TICK", "LEVEL"), WORD),
     **dict.fromkeys(("SIGN", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
 }

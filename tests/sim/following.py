@@ -38,7 +38,7 @@ def follow(rollout: Rollout, engine: Engine, seed: int) -> Counter[str]:
         commands = plain.act(engine.tick(moment.readings))
         hold_mind(engine, used, moment)
         assert np.array_equal(commands, moment.commands)
-        hold_acting(graph, moment, failing)
+        hold_acting(plain, moment, failing)
         plain.grip(moment.acting)
         assert plain.step(moment.acting, moment.grip) == tuple(moment.body)
         happened = plain.happened()
@@ -123,12 +123,17 @@ def hold_mind(engine: Engine, used: set[int], moment: Moment) -> None:
     assert engine.influence.tobytes() == moment.influence.tobytes()
 
 
-def hold_acting(graph: Graph, moment: Moment, failing: Mapping[str, int]) -> None:
+def hold_acting(plain: PlainWorld, moment: Moment, failing: Mapping[str, int]) -> None:
     """What is rough acts with its noise and slips as it says, and neutrally when it has failed.
 
-    All else does what it is told.
+    What stands still does not start below its share. All else does what it is told.
     """
-    for i, actuator in enumerate(graph.actuators):
+    for i, actuator in enumerate(plain.graph.actuators):
+        if (starts := getattr(actuator.kind, "starts", 0.0)) > 0:
+            is_stuck = abs(plain.rolling(actuator.kind)) < 1e-3 and abs(2 * float(moment.acting[i]) - 1) < starts
+            assert (moment.grip[i] == 0) == is_stuck
+            if is_stuck:
+                continue
         if moment.tick > failing.get(actuator.name, moment.tick):
             assert moment.acting[i] == np.float32(actuator.kind.neutral)
             continue

@@ -25,7 +25,7 @@ def sensed(world, kind, all_of, boxes):
         case Light():
             return [light(world, kind, world.nearest(all_of), all_of)], 0.0
         case Eye():
-            return [eye(world, kind, all_of, boxes, world.angle + at) for at in kind.at], 1.0
+            return [eye(world, kind, all_of, boxes, world.looks(kind) + at) for at in kind.at], 1.0
         case TurnRate():
             return [signed(-body.angular_velocity / kind.range, kind.dead_zone)], 0.5
         case Speed():
@@ -163,7 +163,7 @@ def bumper(world, at, half):
     points = [(sign * walls[0], world.y) for sign in (-1, 1)] + [(world.x, sign * walls[1]) for sign in (-1, 1)]
     for x, y, wide, high in world.boxes:
         points.append((min(x + wide, max(x - wide, world.x)), min(y + high, max(y - high, world.y))))
-    points += [touched_at(world, i) for i in world.body.loose.there]
+    points += [touched_at(world, i) for i in world.body.loose.there if not math.isnan(world.places[i][0])]
     inner = outer = False
     for x, y in points:
         far = math.hypot(x - world.x, y - world.y)

@@ -5,14 +5,14 @@ from collections import deque
 
 import numpy as np
 import pymunk
-from mindrun.kinds.actuators.actuator import Gripper, Motor, Steering, Thruster, Wheel
+from mindrun.kinds.actuators.actuator import Gripper, Motor, Servo, Steering, Thruster, Wheel
 from mindrun.kinds.bodies.body import Car, Disc, Holonomic
 from mindrun.kinds.events.event import Collision, Delivery, Exhaustion, Leave, Reach, Success, Visit
 from mindrun.kinds.measures.measure import Advance, Apart, CommandChange, Forward, Progress, Retreat
 from mindrun.kinds.scenes.scene import Arena
 from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.sensors.claw import Contact, Held
-from mindrun.kinds.sensors.compass import Compass
+from mindrun.kinds.sensors.compass import Compass, Direction
 from mindrun.kinds.sensors.floor import Inside
 from mindrun.kinds.sensors.motion import Inertial
 from mindrun.kinds.sensors.nearest import Bearing
@@ -29,7 +29,7 @@ from tests.sim.plain_sensors import sensed
 from tests.sim.plain_strides import MOST, Mover, Solids, Watch, meets, stride
 from tests.sim.plain_walkers import PlainWalkers
 
-TRAIL = 20
+TRAIL, OPENED = 20, 1e30  # ticks; and where a box is that is none
 MOVABLE = Item | LooseBox | Ball
 
 
@@ -40,7 +40,7 @@ class PlainWorld:
         self.graph, self.task, self.runs_down = graph, task, battery
         apart = [thing for thing in task.things if not thing.kind.is_obstacle]
         self.things = [thing for thing in apart for _ in range(thing.kind.copies)]
-        self.places, self.boxes = run.things.copy(), run.boxes
+        self.places, self.boxes = run.things.copy(), run.boxes.copy()
         size = task.scene.size if isinstance(task.scene, Arena) else math.inf
         self.half = tuple(side / 2 for side in (size if isinstance(size, tuple) else (size, size)))
         self.radius = radius_of(graph.body)
@@ -52,6 +52,7 @@ class PlainWorld:
         self.charge = self.cell.start
         self.trail = deque([(self.x, self.y)] * TRAIL, TRAIL)
         self.commands = [a.kind.neutral for a in graph.actuators]
+        self.swivel = {a.name: self.sent(a.kind, f(a.kind.neutral)) for a in graph.actuators if a.kind.carries}
         self.late = [deque([f(a.kind.neutral)] * a.kind.delay) for a in graph.actuators]
         self.turns = {i: deque() for i, m in enumerate(task.measures) if isinstance(m, CommandChange)}
         self.counts = [0] * len(task.events)
@@ -62,6 +63,15 @@ class PlainWorld:
         self.drawn = run.drawn[len(run.drawn) - len(task.draws) :].tolist()
         self.walkers = PlainWalkers(self, run.turned, run.state.world.goal[:, 0].tolist())
         self.there = [self.present(event) if isinstance(event, Leave) else set() for event in task.events]
+
+    @staticmethod
+    def sent(kind, command):
+        """The angle to the left to which a command sends a servo."""
+        return (1 - 2 * float(command)) * kind.range
+
+    def looks(self, kind):
+        """The angle in the world that is straight ahead for a sensor."""
+        return self.angle + self.swivel.get(kind.servo, 0.0)
 
     def patch(self, event):
         """Where the robot is on an event's board, if it has one."""
@@ -78,13 +88,15 @@ class PlainWorld:
         boxes = self.boxes_of(getattr(kind, "of", None))
         match kind:
             case RangeFinder():
-                return [self.ray(self.angle + at, kind) for at in kind.at], 1.0
+                return [self.ray(self.looks(kind) + at, kind) for at in kind.at], 1.0
             case Battery():
                 return [(float(f(self.charge)),) * 2], None
             case Bearing():
                 return [self.bearing(self.nearest(all_of, boxes), kind)], 0.5
             case Compass():
                 return [pointed(math.sin(self.angle), math.cos(self.angle), kind.dead_zone)], 0.5
+            case Direction():
+                return [(0.5 - self.swivel[kind.of] / (2 * math.pi),) * 2], 0.5
             case Contact():
                 value = any(self.in_claw(i, self.reach()) for i in all_of)
             case Held():
@@ -99,7 +111,17 @@ class PlainWorld:
         return [(float(value),) * 2], 0.0
 
     def boxes_of(self, name):
-        """The boxes of obstacles of a name: what always stands there comes first, what is anywhere last."""
+        """The boxes of obstacles of a name that have not been opened."""
+        return [self.boxes[i] for i in self.rows_of(name) if self.boxes[i][0] != OPENED]
+
+    def open(self, name):
+        """Take the obstacles of a name out of the world."""
+        for i in self.rows_of(name):
+            self.boxes[i] = OPENED, OPENED, 0.0, 0.0
+            self.body.open(i)
+
+    def rows_of(self, name):
+        """Which boxes are of a name: what always stands there comes first, what is anywhere last."""
         solid = [thing for thing in self.task.things if thing.kind.is_obstacle]
         fixed = [thing for thing in solid if not isinstance(thing.kind, Obstacle)]
         anywhere = [thing for thing in solid if thing not in fixed and not thing.kind.at and not thing.kind.grid]
@@ -107,7 +129,7 @@ class PlainWorld:
         owners = [
             thing.name for thing in fixed + placed + anywhere for _ in range(thing.kind.obstacles(self.task.scene))
         ]
-        return [box for box, owner in zip(self.boxes, owners, strict=True) if owner == name]
+        return [i for i, owner in enumerate(owners) if owner == name]
 
     def nearest(self, all_of, boxes=()):
         """The place of the nearest of these that have not vanished, or the nearest point of boxes, if any."""
@@ -123,7 +145,7 @@ class PlainWorld:
         if place is None or (kind.range and self.away(place) > kind.range):
             return 0.5, 0.5
         dx, dy = place[0] - self.x, place[1] - self.y
-        c, s = math.cos(self.angle), math.sin(self.angle)
+        c, s = math.cos(self.looks(kind)), math.sin(self.looks(kind))
         return pointed(c * dx + s * dy, c * dy - s * dx, kind.dead_zone)
 
     def ray(self, angle, kind):
@@ -187,7 +209,7 @@ class PlainWorld:
         found = []
         for k in range(sensor.width):
             spans = [(ticks[k][0] - kind.noise, ticks[k][1] + kind.noise) for ticks in known]
-            if isinstance(kind, Bearing | Compass):
+            if isinstance(kind, Bearing | Compass | Direction):
                 spans = [(low + turn, high + turn) for low, high in spans for turn in (-1, 0, 1)]
             else:
                 spans = [(max(0.0, low), min(1.0, high)) for low, high in spans]
@@ -204,8 +226,11 @@ class PlainWorld:
         return now
 
     def grip(self, acting):
-        """What the claw holds under the commands as they act."""
+        """What the claw holds, and where servos are, under the commands as they act."""
         for actuator, command in zip(self.graph.actuators, acting, strict=True):
+            if isinstance(actuator.kind, Servo):
+                left = self.sent(actuator.kind, command) - self.swivel[actuator.name]
+                self.swivel[actuator.name] += min(actuator.kind.speed, max(-actuator.kind.speed, left))
             if isinstance(actuator.kind, Gripper):
                 if command <= 0.5:
                     self.held = -1
@@ -213,6 +238,13 @@ class PlainWorld:
                     items = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, Item)]
                     near = (i for i in items if self.in_claw(i, actuator.kind.reach))
                     self.held = next((i for i in near if self.has_room(i)), -1)
+
+    def rolling(self, kind):
+        """How fast a wheel or a motor rolls."""
+        body = self.body.body
+        ahead = body.velocity.x * cosine(self.angle) + body.velocity.y * sine(self.angle)
+        out = {"left": -1, "right": 1}.get(getattr(kind, "side", ""), 0) * side_of(self.graph.body)
+        return ahead + out * body.angular_velocity
 
     def has_room(self, i):
         """Whether nothing solid is between the robot and an item in its claw, or in the way there."""
@@ -386,7 +418,9 @@ class PlainWorld:
                 met = happened[end.event] and self.counts[end.event] >= end.times
             else:
                 met = self.value(end.when, readings, self.found, 0) > 0
-            if met:
+            if met and end.opens:
+                self.open(end.opens)
+            elif met:
                 for i, event in enumerate(self.task.events):
                     happened[i] += int(end.succeeds and isinstance(event, Success))
                 return number
@@ -464,8 +498,12 @@ class PlainBody:
         self.space.iterations = 8
         self.space.collision_slop = self.slop
         self.space.use_spatial_hash(20.0, 20)
-        for x, y, wide, high in self.solids.boxes:
-            self.box(x - wide, y - high, x + wide, y + high)
+        self.fixed = []
+        for i, (x, y, wide, high) in enumerate(self.solids.boxes):
+            there = (x - wide, y - high, x + wide, y + high) if x != OPENED else (0.0, 0.0, 1.0, 1.0)
+            self.fixed.append(self.box(*there))
+            if x == OPENED:  # it had a number, which others do not get
+                self.open(i)
         if self.solids.half[0] < math.inf:
             (a, b), (c, d) = self.solids.half, (half + 2 for half in self.solids.half)
             for sides in ((-c, -d, -a, d), (a, -d, c, d), (-c, -d, c, -b), (-c, b, c, d)):
@@ -513,7 +551,13 @@ class PlainBody:
     def box(self, left, low, right, high):
         """Something solid."""
         shape = pymunk.Poly(self.space.static_body, [(left, low), (right, low), (right, high), (left, high)])
-        self.add(shape, 1.0)
+        return self.add(shape, 1.0)
+
+    def open(self, i):
+        """A box out of the Space, where it still is in there."""
+        if self.fixed[i]:
+            self.space.remove(self.fixed[i])
+            self.fixed[i] = None
 
     def add(self, shape, friction):
         """A shape of the world or of the robot."""

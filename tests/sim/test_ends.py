@@ -5,6 +5,7 @@ import pytest
 from mindrun.graph.graph import End
 from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
+from mindrun.sim.trace import trace
 
 from mindlang.run.outcome import bench_data, run_data
 from tests.sim.minds import compile_text
@@ -103,3 +104,67 @@ task Test in plain
     found = Rollout(Policy(compile_text(text), {}), "Test", "Both").score(np.zeros((1, 0), np.float32), [1])
     assert found.total[0, 0] / 2 == pytest.approx(command)
     assert found.faults[0, 0] == 0
+
+
+def test_a_wall_that_opens_bars_no_way_and_is_seen_no_more() -> None:
+    text = """
+tick 1/60 s
+master Go
+body Robot is disc size 2
+actuator left is wheel side left neutral 0.5
+actuator right is wheel side right neutral 0.5
+sensor ahead is eye of gate at 0 deg range 40
+sensor way is bearing of gate
+skill Go is rule
+  reads ahead
+  reads way
+  drives left at 1
+  drives right at 1
+task Test in arena size 60
+  contains gate is wall from 0 -30 to 0 30
+  contains button is zone size 2 at -10 0
+  starts at -20 3 facing 0 deg
+  lasts 12 s
+"""
+    for line, last in (
+        ("", -1.5),
+        ("  opens gate when ahead < 0.05\n", 28.9),
+        ("  opens gate on reach of button\n", -1.5),
+    ):
+        graph = compile_text(text + line)
+        found = list(trace(Rollout(Policy(graph, {}), "Test", "Go"), 1).moments)
+        assert found[-1].body[0] == pytest.approx(last, abs=0.2), line
+        near = next(i for i, moment in enumerate(found) if moment.readings[0] < 0.05)
+        assert all((moment.readings[0] == 1.0) == (last > 0) for moment in found[near + 1 :])
+        assert all(moment.readings[1] == 0.5 for moment in found)
+
+
+def test_a_servo_turns_by_its_speed_and_its_sensors_with_it() -> None:
+    text = """
+tick 1/60 s
+master Turn
+body Robot is box size 4 2
+actuator wheel is wheel side left neutral 0.5 starts 20%
+actuator pan is servo range 90 deg speed 30 deg neutral 0.5
+sensor look is direction of pan
+sensor post_seen is bearing of post on pan
+sensor ahead is range_finder at 0 deg range 10 on pan
+skill Turn is rule
+  reads look
+  reads post_seen
+  reads ahead
+  drives pan at 0
+  drives wheel at 0.59
+task Test in arena size 40
+  contains post is zone at 0 10
+  starts at 10 0 facing 0 deg
+  lasts 6 ticks
+"""
+    found = list(trace(Rollout(Policy(compile_text(text), {}), "Test", "Turn"), 1).moments)
+    looks = [moment.readings[0] for moment in found]
+    assert looks == pytest.approx([0.5 - degrees / 360 for degrees in (0, 30, 60, 90, 90, 90)], abs=1e-6)
+    seen = [moment.readings[1] for moment in found]
+    assert seen == pytest.approx([0.5 - (135 - degrees) / 360 for degrees in (0, 30, 60, 90, 90, 90)], abs=1e-6)
+    walls = [8.0 / 10, (10 / 0.8660254 - 2) / 10, 1.0, 1.0, 1.0, 1.0]  # from the rim: 2 ahead, 1 aside
+    assert [moment.readings[2] for moment in found] == pytest.approx(walls, abs=1e-5)
+    assert all(moment.body[0] == 10.0 for moment in found), "the wheel does not start"

@@ -23,7 +23,7 @@ from mindrun.kinds.things.walker import Begin, Walker
 from mindrun.kinds.things.wall import Wall
 from mindrun.numbers.quantity import FARTHEST_UNITS, UNSAID, Span
 
-from tests.hierarchies import combined, conditions, random_graph
+from tests.hierarchies import combined, conditions, on_servos, random_graph
 
 SIZES = st.sampled_from([Span(1.0, 1.0), Span(2.0, 5.0), Span(4.0, 1.0, 0.75), Span(1.0, 3.0, 0.75)])
 WIDE = st.sampled_from([Span(8.0, 8.0), Span(4.0, 12.0), Span(14.0, 6.0, 2.0)])
@@ -42,9 +42,10 @@ OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])
 DENSITY, FRICTION, DAMPING = st.sampled_from([0.1, 0.5]), st.sampled_from([0.0, 0.5, 1.0]), st.sampled_from([0.0, 5.0])
 DELAY = st.sampled_from([0, 0, 1, 2, 5])
 THRUST = st.sampled_from([80.0, 80.0, 200.0, 3000.0, 15.0, -60.0])
+STARTS = st.sampled_from([0.0, 0.0, 0.3, 0.9])
 NOISE, SLIP = st.sampled_from([0.0, 0.0, 0.1]), st.sampled_from([0.0, 0.0, 0.3])
-WHEELS = st.builds(Wheel, st.sampled_from(["left", "right"]), NEUTRAL, THRUST, DELAY, NOISE, SLIP)
-MOTORS = st.builds(Motor, NEUTRAL, THRUST, DELAY, NOISE, SLIP)
+WHEELS = st.builds(Wheel, st.sampled_from(["left", "right"]), NEUTRAL, THRUST, DELAY, NOISE, SLIP, STARTS)
+MOTORS = st.builds(Motor, NEUTRAL, THRUST, DELAY, NOISE, SLIP, STARTS)
 STEERINGS = st.builds(Steering, NEUTRAL, st.sampled_from([0.5, 1.2, 0.0]), DELAY, NOISE)
 THRUSTERS = st.builds(
     Thruster,
@@ -57,18 +58,20 @@ THRUSTERS = st.builds(
     SLIP,
 )
 CLAWS = st.builds(Gripper, st.sampled_from([0.0, 0.5, 0.9, 1.0]), st.sampled_from([1.5, 4.0]), DELAY, NOISE)
-OTHERS = CLAWS | st.builds(Servo, NEUTRAL, DELAY) | st.builds(Lamp, NEUTRAL, DELAY)
+SERVOS = st.builds(Servo, NEUTRAL, DELAY, st.sampled_from([pi / 2, 0.0, 3.0]), st.sampled_from([2 * pi, 0.1, 0.5]))
+OTHERS = CLAWS | SERVOS | st.builds(Lamp, NEUTRAL, DELAY)
 RANGES = {  # of what varies
     "thrust": st.sampled_from([(60.0, 200.0), (-50.0, 15.0), (80.0, 80.0)]),
     "delay": st.sampled_from([(0.0, 3.0), (2.0, 2.0), (1.0, 6.0)]),
     "noise": st.sampled_from([(0.0, 0.1), (0.05, 0.3)]),
     "slip": st.sampled_from([(0.0, 0.5), (0.2, 0.3)]),
+    "starts": st.sampled_from([(0.0, 0.6), (0.2, 0.3)]),
     "lost": st.sampled_from([(0.0, 0.5), (0.9, 1.0)]),
     "range": st.just((0.2, 1.2)),
     "density": st.sampled_from([(0.1, 3.0), (1.0, 1.5)]),
     "friction": st.sampled_from([(0.0, 1.0), (0.3, 0.3)]),
     "damping": st.just((0.0, 9.0)),
-    "speed": st.sampled_from([(0.5, 20.0), (3.0, 3.0)]),
+    "speed": st.sampled_from([(0.5, 6.0), (3.0, 3.0)]),
     "turning": st.just((0.0, 10.0)),
     "linear_damping": st.just((0.0, 9.0)),
     "angular_damping": st.just((1.0, 30.0)),
@@ -99,7 +102,8 @@ def _robots(draw: st.DrawFn, graph: Graph) -> Graph:
     """A graph with any body, and on it actuators that can move it; others now and then."""
     bodies, drives = draw(st.sampled_from([*DRIVES.items(), *[*DRIVES.items()][:1] * 2]))
     actuators = tuple(Actuator(a.name, draw(drives | drives | OTHERS)) for a in graph.actuators)
-    return replace(graph, body=draw(bodies), actuators=actuators)
+    sensors = draw(on_servos(graph.sensors, actuators))
+    return replace(graph, body=draw(bodies), actuators=actuators, sensors=sensors)
 
 
 @st.composite
@@ -116,7 +120,7 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
     )
     some = st.lists(st.sampled_from(range(len(events))), unique=True, max_size=3) if events else st.just([])
     ticks = draw(st.integers(1, most))
-    ends = tuple(draw(st.lists(_ends(graph, measures, events, len(draws)), max_size=3)))
+    ends = tuple(draw(st.lists(_ends(graph, measures, events, things, len(draws)), max_size=3)))
     task = Task(
         "World",
         scene,
@@ -302,15 +306,21 @@ def _events(draw: st.DrawFn, scene: SceneKind, things: tuple[Thing, ...]) -> tup
 
 @st.composite
 def _ends(
-    draw: st.DrawFn, graph: Graph, measures: tuple[MeasureKind, ...], events: tuple[EventKind, ...], draws: int
+    draw: st.DrawFn,
+    graph: Graph,
+    measures: tuple[MeasureKind, ...],
+    events: tuple[EventKind, ...],
+    things: tuple[Thing, ...],
+    draws: int,
 ) -> End:
-    """An event, the first time or later, or a condition; a success or not."""
+    """An event, the first time or later, or a condition; a success or not, or what opens something."""
     happening = [number for number, event in enumerate(events) if not event.is_of_success]
-    succeeds = draw(st.booleans())
+    opens = draw(st.sampled_from(["", *2 * [each.name for each in things if each.kind.is_obstacle]]))
+    succeeds = not opens and draw(st.booleans())
     if happening and draw(st.booleans()):
-        return End(draw(st.sampled_from(happening)), draw(st.integers(1, 3)), None, succeeds)
+        return End(draw(st.sampled_from(happening)), draw(st.integers(1, 3)), None, succeeds, opens=opens)
     programs = _programs(graph.width, len(measures), len(graph.actuators), False, draws)
-    return End(None, 1, draw(conditions(programs)), succeeds, "it is so")
+    return End(None, 1, draw(conditions(programs)), succeeds, "it is so", opens)
 
 
 @st.composite

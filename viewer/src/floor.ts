@@ -8,7 +8,7 @@ const GRID_UNITS = 10;
 export const WALL_UNITS = 0.8;
 
 export function drawFloor(context: CanvasRenderingContext2D, world: World, camera: Camera, theme: Theme): void {
-  const { arena, boxes } = world;
+  const { arena, boxes, doors } = world; // of what may open the rim alone is drawn
   if (arena) {
     const [x, y] = arena;
     context.fillStyle = theme.wall;
@@ -20,8 +20,8 @@ export function drawFloor(context: CanvasRenderingContext2D, world: World, camer
   context.fillStyle = theme.rock;
   context.strokeStyle = theme.rockEdge;
   context.lineWidth = 1.2 / camera.scale;
-  for (const [x, y, halfX, halfY] of boxes) {
-    context.fillRect(x - halfX, y - halfY, 2 * halfX, 2 * halfY);
+  for (const [number, [x, y, halfX, halfY]] of boxes.entries()) {
+    if (!doors.includes(number)) context.fillRect(x - halfX, y - halfY, 2 * halfX, 2 * halfY);
     context.strokeRect(x - halfX, y - halfY, 2 * halfX, 2 * halfY);
   }
 }

@@ -41,10 +41,10 @@ export interface Robot {
   front: number;
   side: number;
   axles: number;
-  rays: { angle: number; rim: number; reach: number; column: Column; name: string; sees: boolean }[];
+  rays: { angle: number; rim: number; reach: number; column: Column; turned: Column | null; name: string; sees: boolean }[];
   spots: { x: number; y: number; column: Column }[];
   switches: { angle: number; width: number; column: Column }[];
-  bearings: { name: string; column: Column }[];
+  bearings: { name: string; column: Column; turned: Column | null }[];
   claw: Column | null;
   steering: { column: Column; turn: number } | null;
   lamps: Column[];
@@ -62,6 +62,7 @@ export interface Thing {
 export interface World {
   arena: [halfX: number, halfY: number] | null;
   boxes: [x: number, y: number, halfX: number, halfY: number][];
+  doors: number[]; // which of the boxes may open
   things: Thing[];
   robot: Robot;
 }

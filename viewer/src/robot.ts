@@ -1,6 +1,6 @@
 /** The robot on the canvas: its body and heading, what it senses, and what it does, as a row has them. */
 
-import type { Robot } from "./protocol";
+import type { Column, Robot } from "./protocol";
 import { type Row, valueAt } from "./rows";
 import type { Theme } from "./theme";
 
@@ -64,16 +64,29 @@ function disc(context: CanvasRenderingContext2D, x: number, y: number, radius: n
 /** Each ray as far as it went; how far one saw that looks for a single name is not known where it saw nothing. */
 function rays({ context, robot, row, theme, pixel }: Pen): void {
   const before = context.globalAlpha;
-  for (const { angle, rim, reach, column, sees } of robot.rays) {
-    const reading = valueAt(row, column);
-    if (!Number.isFinite(reading) || (sees && reading === 1)) continue;
+  for (const ray of robot.rays) {
+    const { reach, sees } = ray;
+    const reading = valueAt(row, ray.column);
+    const angle = ray.angle + turnOf(row, ray.turned);
+    if (!Number.isFinite(reading + angle) || (sees && reading === 1)) continue;
     const way = [Math.cos(angle), Math.sin(angle)];
+    const rim = ray.turned && robot.outline.length ? rimAlong(robot, way) : ray.rim;
     const far = rim + reading * reach;
     context.globalAlpha = before * (reading < 1 ? 0.75 : 0.28);
     line(context, [way.map((part) => part * rim), way.map((part) => part * far)], pixel, theme.ray);
     if (reading < 1) disc(context, way[0] * far, way[1] * far, 2.5 * pixel, theme.ray);
   }
   context.globalAlpha = before;
+}
+
+/** The angle to the left by which a servo has turned, as the reading in a column says; 0 without one. */
+function turnOf(row: Row, column: Column | null): number {
+  return column ? 2 * Math.PI * (0.5 - valueAt(row, column)) : 0;
+}
+
+/** The distance from the middle of a rectangular body to its rim in a direction. */
+function rimAlong(robot: Robot, [ahead, aside]: number[]): number {
+  return 1 / Math.max(Math.abs(ahead) / robot.front, Math.abs(aside) / robot.side);
 }
 
 function body({ context, robot, theme, pixel }: Pen): void {
@@ -111,8 +124,8 @@ function wheels({ context, robot, row, theme, pixel }: Pen): void {
 
 /** A small arrow outside the body in the direction in which each bearing points: 0.5 is ahead, 0.25 to the left. */
 function bearings({ context, robot, row, theme, pixel }: Pen): void {
-  for (const { column } of robot.bearings) {
-    const angle = 2 * Math.PI * (0.5 - valueAt(row, column));
+  for (const { column, turned } of robot.bearings) {
+    const angle = turnOf(row, column) + turnOf(row, turned);
     if (!Number.isFinite(angle)) continue;
     const from = robot.front + 3 * pixel;
     context.save();

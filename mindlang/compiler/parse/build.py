@@ -35,6 +35,7 @@ _FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, type]]] = {
     "starts": (syntax.Starts, {"place": tuple, "facing": Amount}),
     "ends": (syntax.Ends, _OUTCOME),
     "succeeds": (syntax.Succeeds, _OUTCOME),
+    "opens": (syntax.Opens, {"name": Name, **_OUTCOME}),
     "stop": (syntax.Stop, {**_OUTCOME, "tick": syntax.Tick}),
     "rewards": (syntax.Rewards, {"amount": Expression, "on": Phrase, "each": syntax.Each, "when": syntax.When}),
 }
@@ -76,7 +77,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         return Name(str(token), self._span(token))
 
     TITLE = PART = WHOLE = TASK = COMPUTED = NUMBERED = SEVERAL = ORDERED = BROKEN = GYMNASIUM = ENVIRONMENT = NAME
-    FROM = TO = BY = FACING = AT = NAME
+    FROM = TO = BY = ON = FACING = AT = NAME
 
     def COMPARE(self, token: Token) -> str:  # noqa: N802
         """A sign between two values."""

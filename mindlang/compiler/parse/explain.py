@@ -52,6 +52,7 @@ LINES = {
     "lasts": "lasts 10000 ticks",
     "ends": "ends on collision, or ends when battery < 5%",
     "succeeds": "succeeds on 5 delivery of ball",
+    "opens": "opens gate on 2 delivery of key, or opens gate when battery < 5%",
     "rewards": "rewards 10 on reach of ball, or rewards forward per tick",
     "counts": "counts collision",
     "teaches": "teaches Avoid on Avoid for 1000 generations",

@@ -65,6 +65,8 @@ def make_kind(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> An
 
 def _known_kinds(noun: str, name: str, scope: Scope) -> str:
     """The hint for a kind that a noun does not have."""
+    if noun == "content" and name == "door":
+        return "A door is a wall that opens: write wall here, and below it opens gate on 2 delivery of key."
     if hint := did_you_mean(name, kinds(noun)):
         return hint
     known = f"Known are {listed(sorted(kinds(noun)), 'and')}."
@@ -137,6 +139,8 @@ def _value(
             scope.names.find(name, ("sensor", "memory"), findings)
         case "skill":
             scope.names.find(name, ("skill",), findings)
+        case "servo":
+            _check_servo(name, scope.names, findings)
         case "environment" | "name of a part of an observation or an action":
             pass  # what there is, nobody but the environment knows: `resolve.outside` asks it
         case "Python function":
@@ -147,6 +151,17 @@ def _value(
             hint = did_you_mean(name.text, known) or f"It is {listed(known)}."
             findings.error(f"unknown-{noun_}", name.span, f"There is no {noun_} called {name.text}.", hint)
     return name.text
+
+
+def _check_servo(name: Name, names: Names, findings: Findings) -> None:
+    """Report a name that is no actuator's, or that of one on which no sensor can sit."""
+    if not names.find(name, ("actuator",), findings):
+        return
+    phrase = names.table["actuator"][name.text].header.phrase
+    cls = find_kind("actuator", phrase.kind.text) if phrase else None
+    if phrase and cls and not cls.carries:
+        hint = f"Declare actuator {name.text} is servo, or name a servo."
+        findings.error("no-servo", name.span, f"{name.text} is {a(phrase.kind.text)}: nothing turns with it.", hint)
 
 
 def _number(parameter: Parameter, argument: Argument, findings: Findings) -> Any:

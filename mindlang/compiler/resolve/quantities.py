@@ -60,7 +60,8 @@ def _wrong_unit(amount: Amount, quantity: Quantity, findings: Findings) -> None:
     bare = amount.span.text.partition("per ")[0].strip().removesuffix(amount.unit).strip()
     scaled = {unit: amount.number * factor for unit, factor in quantity.units.items() if not amount.said}
     fit = [unit for unit, value in scaled.items() if quantity.low <= value <= quantity.high]
-    units = [f"{bare} {unit}".replace(" %", "%").strip() for unit in fit]
+    rate = f" per {amount.per or 's'}" * (quantity.rate != "" and "" not in quantity.units)
+    units = [f"{bare} {unit}".replace(" %", "%").strip() + rate for unit in fit]
     message = f"The unit {amount.unit} does not fit here." if amount.unit else "This number needs a unit."
     here = f"Here stands {quantity.name}"
     hint = f"{here}: write {listed(units)}." if units else f"{here}. {_bounds(quantity)}"

@@ -4,24 +4,25 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
+from mindrun.kinds.registry import names
 from mindrun.numbers.quantity import SECONDS, TICKS, Quantity
 
 from mindlang.compiler import model
 from mindlang.compiler.beginning import first_tick_hint, task_beginning
-from mindlang.compiler.diagnostic import Findings, Label
+from mindlang.compiler.diagnostic import Findings, Label, a
 from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import make_kind
 from mindlang.compiler.resolve.parts import refuse_facts, said_once
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.resolve.worlds import ResolvedWorld, RobotFacts, resolve_world
-from mindlang.compiler.syntax import Counts, Declaration, Ends, Lasts, Phrase, Rewards, Succeeds, of_form
+from mindlang.compiler.syntax import Counts, Declaration, Ends, Lasts, Name, Opens, Phrase, Rewards, Succeeds, of_form
 
 MAX_RUN_TICKS = 10_000_000  # of a run
 TIMES = Quantity("how many times", {"": 1.0}, low=1, high=MAX_RUN_TICKS, whole=True)
 LASTS = replace(TICKS, low=1.0, high=MAX_RUN_TICKS)
 
 SCENE_FACTS = ("contains", "starts", "draws", "varies", "fails")  # what the world is, not what is to be done in it
-TASK_FACTS = (*SCENE_FACTS, "lasts", "ends", "succeeds", "rewards", "counts")
+TASK_FACTS = (*SCENE_FACTS, "lasts", "ends", "succeeds", "opens", "rewards", "counts")
 
 
 def resolve_tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
@@ -90,17 +91,34 @@ def event_in(written: Phrase, world: ResolvedWorld, findings: Findings) -> Any:
 def _ends(
     declaration: Declaration, world: ResolvedWorld, visible: Visible, findings: Findings
 ) -> tuple[model.End, ...]:
-    """The ends of a task's runs, in the order of the source; of two in one tick the first one counts."""
+    """The ends of a task's runs, and what opens in them, in the order of the source.
+
+    Of two ends in one tick the first one counts.
+    """
     ends = []
-    for fact in (fact for fact in declaration.facts if isinstance(fact, Ends | Succeeds)):
+    for fact in (fact for fact in declaration.facts if isinstance(fact, Ends | Succeeds | Opens)):
         times = convert(fact.times, TIMES, findings) if fact.times else 1
         event = event_in(fact.event, world, findings) if fact.event else None
         when = resolve_expressions(fact.when, visible, findings)
         if fact.event and event and event.is_of_success and world.can_succeed:
             hint = "Write what a success is: succeeds on 5 delivery of red."
             findings.error("own-success", fact.event.span, "A success ends the run by itself.", hint)
-        ends.append(model.End(event, int(times or 1), when, isinstance(fact, Succeeds), fact))
+        opens = _opened(fact.name, world, findings) if isinstance(fact, Opens) and fact.name else ""
+        ends.append(model.End(event, int(times or 1), when, isinstance(fact, Succeeds), fact, opens))
     return tuple(ends)
+
+
+def _opened(name: Name, world: ResolvedWorld, findings: Findings) -> str:
+    """The name of what opens; one of nothing that stands in the way is reported."""
+    there = {thing.name: thing for thing in world.things}
+    if world.scope.things is not None and name.text not in world.scope.things:
+        hint = findings.suggest(name.text, there) or f"Add contains {name.text} is wall from 0 0 to 4 0 to the task."
+        message = f"There is nothing called {name.text} in {world.scope.place}."
+        findings.error("unknown-thing", name.span, message, hint)
+    elif name.text in there and (kind := there[name.text].kind) and not kind.is_obstacle:
+        hint = f"What opens is a wall, a map or an obstacle; {name.text} is {a(names()[type(kind)])}."
+        findings.error("unfit-thing", name.span, f"{name.text} cannot open: it bars no way.", hint)
+    return name.text
 
 
 def _check_decided(ends: Sequence[model.End], world: ResolvedWorld, robot: RobotFacts, findings: Findings) -> None:
@@ -108,7 +126,7 @@ def _check_decided(ends: Sequence[model.End], world: ResolvedWorld, robot: Robot
     begun = task_beginning(world.scene, world.things, world.start, robot.body_kind, robot.claw)
     sensors = [sensor.kind for sensor in robot.sensors]
     for end in ends:
-        if end.event and begun.first_tick_count(end.event, sensors) >= end.times:
+        if end.event and not end.opens and begun.first_tick_count(end.event, sensors) >= end.times:
             there = (Label(each.span, "this one") for each in world.things if each.name == end.event.thing)
             message = "This ends every run in its first tick."
             findings.error("decided-start", end.fact.span, message, first_tick_hint(end.event), *there)

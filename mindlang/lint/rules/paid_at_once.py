@@ -58,10 +58,11 @@ class _FirstTick:
     def found(self) -> Found:
         """The lines of a task that end a run or pay in the first tick."""
         for end in self.task.ends:
+            does = f"opens {end.opens} in" if end.opens else "ends"
             if end.event and (often := self._often(end.event, end.times)):
-                yield Finding(end.fact.span, f"This ends {often} in the first tick.", self._hint(end.event))
+                yield Finding(end.fact.span, f"This {does} {often} in the first tick.", self._hint(end.event))
             if end.when and (why := why_always(end.when, lambda of: interval(of, self.first))):
-                yield Finding(end.fact.span, f"This ends every run in its first tick: {why}.", "Compare otherwise.")
+                yield Finding(end.fact.span, f"This {does} every run in its first tick: {why}.", "Compare otherwise.")
         for reward in self.task.rewards:
             if reward.on and (often := self._often(reward.on, 1) or self._often_drawn(reward.on)):
                 message = f"This is paid in the first tick of {often}, for nothing."

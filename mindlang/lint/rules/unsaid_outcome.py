@@ -26,7 +26,7 @@ BAD = DOCK.format("", "")
 def check(study: Study) -> Found:
     for task in study.mind.tasks:
         events = [*task.counts, *(reward.on for reward in task.rewards if reward.on)]
-        ending = {end.event for end in task.ends if end.times == 1}
+        ending = {end.event for end in task.ends if end.times == 1 and not end.opens}
         reached = {event.thing for event in events if event.outcome == REACHED and event not in ending}
         for name, phrase in ((fact.name, fact.phrase) for fact in of_form(task.facts, Contains)):
             if name.text in reached and all(argument.key.text != REACHED for argument in phrase.arguments):

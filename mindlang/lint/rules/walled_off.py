@@ -53,9 +53,9 @@ def _of_task(study: Study, task: Task) -> Iterator[Finding]:
     """The findings of a task: what is walled off in every run, otherwise what is in some."""
     body, before = study.mind.body.kind, list[Rectangle]()
     for may in (False, True):
-        walls = [
-            wall for each in task.things for wall in each.kind.standing(task.scene, may and _stays(task, each.kind))
-        ]
+        opened = {end.opens for end in task.ends}
+        standing = [each.kind for each in task.things if each.name not in opened]
+        walls = [wall for kind in standing for wall in kind.standing(task.scene, may and _stays(task, kind))]
         if walls == before or task.scene.environment:
             return
         before = walls

@@ -167,7 +167,8 @@ class Reward:
 class End:
     """An end of a run: the `times`th time that an event, by its index, happens; or the condition `when`.
 
-    One that `succeeds` ends it as a success. `text` is the condition as it is written.
+    One that `succeeds` ends it as a success. `text` is the condition as it is written. One that `opens` an obstacle,
+    wall or map, by its name, does not end it: for the rest of the run that is not there.
     """
 
     event: int | None
@@ -175,6 +176,7 @@ class End:
     when: Program | None = None
     succeeds: bool = False
     text: str = ""
+    opens: str = left_out("")
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from mindrun.errors import ReadingsError, nearest
 from mindrun.graph.graph import Graph, Sensor
+from mindrun.kinds.sensors.sensor import SensorKind
 
 if TYPE_CHECKING:
     import numpy as np
@@ -75,3 +76,9 @@ def _unknown(graph: Graph, name: str) -> str:
         return f"{name} is computed by the mind itself, leave it out"
     near = nearest(name, physical(graph))
     return f"there is no sensor {name}" + (f"; did you mean {near}?" if near else "")
+
+
+def servo_reading(graph: Graph, kind: SensorKind) -> int | None:
+    """The reading that says where the servo of a kind of sensor looks; None where nothing does, or it is on none."""
+    told = (each.start for each in graph.sensors if each.kind.tells_servo and each.kind.servo == kind.servo)
+    return next(told, None) if kind.servo else None

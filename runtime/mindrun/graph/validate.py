@@ -73,6 +73,7 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
     widths = {memory.name: 1 for memory in graph.memories} | {sensor.name: sensor.width for sensor in graph.sensors}
     kinds = {sensor.name: sensor.kind for sensor in graph.sensors}
     around = directions(kinds)
+    servos = {"", *(actuator.name for actuator in graph.actuators if actuator.kind.carries)}
     for sensor in graph.sensors:
         shape = sensor.kind.shape
         width = widths.get(sensor.kind.source) if shape is None else prod(shape)
@@ -86,6 +87,8 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
             or sensor.kind.misfit(kinds)
         ):
             yield f"sensor {sensor.name} cannot be computed"
+        if sensor.kind.servo not in servos:
+            yield f"sensor {sensor.name} is on {sensor.kind.servo!r:.60}, which is no servo"
         start += sensor.width
     try:
         TopologicalSorter({sensor.name: sensor.kind.sources for sensor in graph.sensors}).prepare()
@@ -180,7 +183,10 @@ def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
 
 def _end_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
     """An end is an event or a condition; a success comes of none that it makes itself."""
+    in_the_way = {"", *(thing.name for thing in task.things if thing.kind.is_obstacle)}
     for end in task.ends:
+        if end.opens not in in_the_way or (end.opens and end.succeeds):
+            yield "opens what cannot be opened"
         if (end.event is None) == (end.when is None) or end.times < 1:
             yield "has an end that never comes"
         if end.when is not None and not (

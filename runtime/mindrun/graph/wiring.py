@@ -57,8 +57,10 @@ class SensorWire:
 class ActuatorWire:
     """The wiring of an actuator: its driver, and how commands become its values.
 
-    A command c becomes c + `trim`, kept within `low` and `high` and changed by no more than `slew` a second (0: at
-    once), and turned round where it is `reversed`. Neutral is the mind's with the trim, at once and within no limits.
+    Neutral is the mind's and the `trim`, 0 and 1 stay what they are, and the way between is as even: of it the share
+    `least` is gone as soon as a command is not neutral. What comes of that is kept within `low` and `high`, changed by
+    no more than `slew` a second (0: at once), and turned round where it is `reversed`; neutral at once and within no
+    limits.
     """
 
     actuator: str
@@ -68,6 +70,7 @@ class ActuatorWire:
     high: Annotated[float, RATIO] = 1.0
     slew: Annotated[float, A_SECOND] = 0.0
     reversed: Annotated[bool, SWITCH] = False
+    least: Annotated[float, RATIO] = left_out(0.0)
 
 
 @dataclass(frozen=True, slots=True)

@@ -196,17 +196,20 @@ def nearest(s: Any, sensor: Any, n: Any) -> Any:
     return found
 
 
+OPENED_SQUARE = 1e40  # of a distance: between any place and a box that has been opened, and any other
+
+
 def find_nearest_point(s: Any, sensor: Any, n: Any) -> None:
     """Write the point of a sensor's boxes that is nearest to the robot's middle into `s.nearest`, with size 0.
 
-    The first where two are as near; the robot's middle itself where that is in a box.
+    The first where two are as near; the robot's middle itself where that is in a box. NaN where all have opened.
     """
     found, asked = s.nearest, -2 - sensor.box
     if s.nearest_of[0] == asked:
         return
     s.nearest_of[0] = asked
     for p in range(n):
-        x, y, least, to_x, to_y = s.body[X, p], s.body[Y, p], np.inf, np.nan, np.nan
+        x, y, least, to_x, to_y = s.body[X, p], s.body[Y, p], OPENED_SQUARE, np.nan, np.nan
         for b in range(sensor.box, sensor.box + sensor.boxes):
             its_x, its_y, wide, tall = box_of(s.boxes, b, p)
             low, high = its_x - wide, its_x + wide
@@ -218,7 +221,8 @@ def find_nearest_point(s: Any, sensor: Any, n: Any) -> None:
             closer = square < least
             to_x, to_y = near_x if closer else to_x, near_y if closer else to_y
             least = square if closer else least
-        found[X, p], found[Y, p], found[SIZE, p], found[DISTANCE, p] = to_x, to_y, 0.0, np.sqrt(least)
+        dx, dy = to_x - x, to_y - y
+        found[X, p], found[Y, p], found[SIZE, p], found[DISTANCE, p] = to_x, to_y, 0.0, np.sqrt(dx * dx + dy * dy)
 
 
 def uniform(random: Any, lane: Any, low: Any, high: Any) -> Any:

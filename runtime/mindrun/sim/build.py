@@ -94,7 +94,7 @@ def sensor_rows(
             "turns": not scene.directions.isdisjoint({sensor.name, kind.source}),
             "is_aside": sensor in aside, "every": 1, "code": code, "length": length,
             "ray": len(rays), "number": len(numbers), "before": before, "held": rough, "ring": rings,
-            "part": orders.index(sensor.name) if kind.is_order else 0, **roughness, **kind.row(scene),
+            **_numbers(graph, sensor), **roughness, **kind.row(scene),
         })  # fmt: skip
         rays += kind.rays
         ray_row += range(sensor.start, sensor.start + len(kind.rays))
@@ -114,6 +114,14 @@ def sensor_rows(
         "numbers": np.array(numbers, np.float64),
     }
     return tables, {"before": before, "rough": rough, "rings": rings}
+
+
+def _numbers(graph: Graph, sensor: Sensor) -> Row:
+    """The place of an order among the orders, and that of the servo of a sensor among the actuators; −1 without one."""
+    orders = [each.name for each in graph.sensors if each.kind.is_order]
+    servos = {actuator.name: number for number, actuator in enumerate(graph.actuators)}
+    part = orders.index(sensor.name) if sensor.kind.is_order else 0
+    return {"part": part, "servo": servos.get(sensor.kind.servo, -1)}
 
 
 def _roughness(sensor: Sensor, parameters: Parameters) -> Row:

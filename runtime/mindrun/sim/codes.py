@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mindrun.sim.arrays import Block, Room
 
-PUSH, STEERING, GRIPPER, IDLE = range(4)
+PUSH, STEERING, GRIPPER, IDLE, SERVO = range(5)
 ITEM, ZONE, POWER, BOX, BALL, WALKER = range(6)
 STAYS, MOVES, VANISHES = range(3)
 PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE, ITS_REWARD, APART, DRAWN_NUMBER = range(8)
@@ -31,7 +31,7 @@ FORCE, TORQUE, FORCE_X, FORCE_Y, FORCE_ASIDE, PUSH_ROWS = range(6)  # rows of wh
 
 ACTUATOR_CODES = {
     "wheel": PUSH, "motor": PUSH, "thruster": PUSH, "steering": STEERING, "gripper": GRIPPER,
-    "servo": IDLE, "lamp": IDLE, "action": IDLE, "choice": IDLE,
+    "servo": SERVO, "lamp": IDLE, "action": IDLE, "choice": IDLE,
 }  # fmt: skip
 THING_CODES = {"item": ITEM, "zone": ZONE, "power": POWER, "box": BOX, "ball": BALL, "walker": WALKER}
 MEASURE_CODES = {
@@ -67,7 +67,7 @@ def _columns(*inner: tuple[Any, ...], **names: str) -> np.dtype[Any]:
 # Where a column says what differs between runs, it is a row of `world.numbers`: that of every PARAMETER.
 SENSOR = _columns(
     i8="start width thing things box boxes source ray number part before turns code length over "
-    "is_rough is_aside noise lost every delay wait held ring",
+    "is_rough is_aside noise lost every delay wait held ring servo",
     u8="lane",
     f8="range period",
     f4="low high dead_zone gain blank",
@@ -77,7 +77,8 @@ SKILL = _columns(i8="index input inputs outputs hidden width weights own edge ed
 EDGE = _columns(i8="to_skill target output code length when whens other others scope scoped scopes", f4="cuts")
 CODE = _columns(i8="op arg", f8="value")
 ACTUATOR = _columns(
-    i8="kind is_right delay ring is_noisy is_slipping is_rough thrust turn noise slip wait fails",
+    i8="kind is_right delay ring is_noisy is_slipping is_sticky is_rough thrust turn speed noise slip starts wait "
+    "fails",
     f8="ahead aside arm reach",
     f4="neutral",
 )
@@ -95,7 +96,7 @@ OBSTACLE = _columns(i8="columns rows count option options x_row y_row", f8="firs
 MEASURES = _columns(i8="kind thing things of ofs over ring row", f8="beyond")
 PRESENCE = _columns(i8="thing when whens")
 EVENT = _columns(i8="kind thing things to tos arrival columns rows board", f8="patch")
-END = _columns(i8="event times when whens succeeds")
+END = _columns(i8="event times when whens succeeds is_end box boxes")
 REWARD = _columns(i8="code length on each eachs when whens")
 WORLD = _columns(
     i8="linear angular friction mass moment mass_inv moment_inv is_round is_placed is_faced ticks rays master battery "

@@ -18,7 +18,9 @@ from mindrun.sim.parameter_rows import SAME_IN_EVERY_RUN, Parameters
 
 Array = NDArray[Any]
 Floats = NDArray[np.float32]
-VARYING_COLUMNS = {"thrust": "thrust", "noise": "noise", "slip": "slip", "turn": "range"}  # arguments that may vary
+VARYING_COLUMNS = {
+    "thrust": "thrust", "noise": "noise", "slip": "slip", "turn": "range", "speed": "speed", "starts": "starts",
+}  # arguments that may vary  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -130,7 +132,7 @@ def actuator_rows(graph: Graph, parameters: Parameters) -> tuple[Array, int]:
         is_noisy = own.get("noise", 0.0) > 0.0
         row = {
             "kind": ACTUATOR_CODES[names()[type(kind)]], "neutral": kind.neutral, "delay": kind.delay, "ring": ring,
-            "is_noisy": is_noisy, "is_slipping": own.get("slip", 0.0) > 0.0,
+            "is_noisy": is_noisy, "is_slipping": own.get("slip", 0.0) > 0.0, "is_sticky": "starts" in own,
             "is_rough": is_noisy or fails != SAME_IN_EVERY_RUN, "fails": fails,
         }  # fmt: skip
         values = {column: getattr(actuator.kind, key) for column, key in VARYING_COLUMNS.items() if column in own}

@@ -71,6 +71,7 @@ class WorldState(Block):
     restless: Annotated[Array, each()]  # how many have not settled
     direction: Annotated[Array, rows("walkers")]  # of each that wanders, an angle
     goal: Annotated[Array, rows("walkers", kind=I8)]  # the corner of its way that each goes to
+    swivel: Annotated[Array, rows("actuators")]  # of each servo, the angle by which it is turned to the left
     held: Annotated[Array, each()]  # the thing that the claw holds, or −1
     reached: Annotated[Array, rows("things", kind=U1)]  # bit 0 while it is in reach, bit 1 if it was in the tick before
     delivered: Annotated[Array, rows("things", kind=U1)]  # the same of items that lie in a zone
@@ -185,7 +186,7 @@ class RunState(Block):
 
 SENSED = (
     "readings", "before", "body", "heading", "things", "held", "battery", "tick", "trail", "loose", "nearest",
-    "nearest_of", "frame", "sight", "boxes", "nearby", "nearby_count", "stack", "active", "seed", "influence",
+    "nearest_of", "frame", "sight", "boxes", "nearby", "nearby_count", "stack", "active", "seed", "influence", "swivel",
 )  # fmt: skip
 SENSED_PARTS = {"mind": MindState, "world": WorldState, "sight": SightState}
 

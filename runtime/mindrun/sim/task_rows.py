@@ -57,6 +57,12 @@ def boxes_by_name(task: Task) -> dict[str, range]:
     return found
 
 
+def opened_boxes(task: Task) -> set[int]:
+    """The boxes of what opens in some runs of a task."""
+    boxes = boxes_by_name(task)
+    return {box for end in task.ends if end.opens for box in boxes[end.opens]}
+
+
 def hash_numbers(task: Task) -> tuple[int, list[int], list[int]]:
     """The numbers that Chipmunk would give to the shapes of the robot and of each thing, and their places in its hash.
 
@@ -243,11 +249,15 @@ def event_rows(task: Task) -> tuple[Array, int, int]:
 
 def end_rows(task: Task, programs: Programs) -> Array:
     """Rows of END; their conditions go to `programs`."""
-    rows: list[Row] = []
+    rows, boxes = list[Row](), {"": NOWHERE, **boxes_by_name(task)}
     for end in task.ends:
         when, whens = programs.add(end.when or ())
         event = -1 if end.event is None else end.event
-        rows.append({"event": event, "times": end.times, "when": when, "whens": whens, "succeeds": end.succeeds})
+        opened = boxes[end.opens]
+        rows.append({
+            "event": event, "times": end.times, "when": when, "whens": whens, "succeeds": end.succeeds,
+            "is_end": not end.opens, "box": opened.start, "boxes": len(opened),
+        })  # fmt: skip
     return records(rows, codes.END)
 
 

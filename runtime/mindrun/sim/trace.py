@@ -234,7 +234,8 @@ def _written(rollout: Rollout, state: State, jobs: Jobs) -> Ticks:
     held, battery, touching = scalars.T.copy()
     actuators = len(tables.actuators)
     reached = np.isin(np.arange(influence.shape[1]), tables.skills["index"])
-    rough, slipping = (tables.actuators[name].astype(bool) for name in ("is_rough", "is_slipping"))
+    rough = tables.actuators["is_rough"].astype(bool)
+    slipping = (tables.actuators["is_slipping"] | tables.actuators["is_sticky"]).astype(bool)
     each_thing = things[:, : THING_ROWS * len(tables.things)].reshape(count, len(tables.things), THING_ROWS)
     return Ticks(
         body=body,

@@ -15,14 +15,15 @@ TICK = 1 / 16  # with times and shares in whole 128ths all sums are exact: bound
 SOME = st.sampled_from([0, 1, 4, 7, 8, 9, 12, 15, 16, 17, 40]).map(lambda steps: steps / 128)
 SHARES = st.integers(0, 128).map(lambda steps: steps / 128)
 CHANNELS = st.builds(
-    lambda neutral, trim, limits, slew, turned: Channel(
-        "any", neutral, MockActuator(), trim, min(limits), max(limits), slew, turned
+    lambda neutral, trim, limits, slew, turned, least: Channel(
+        "any", neutral, MockActuator(), trim, min(limits), max(limits), slew, turned, least
     ),
     SHARES,
     st.sampled_from([0.0, 0.0, 0.125, -0.25, 1.0]),
     st.tuples(SHARES, SHARES),
     st.sampled_from([0.0, 0.0, 0.5, 2.0, 8.0]),
     st.booleans(),
+    st.sampled_from([0.0, 0.0, 0.25, 1.0]),
 )
 
 
@@ -67,12 +68,23 @@ class Restated:
         seconds = TICK if self.moved is None else min(TICK, now - self.moved)
         self.moved = now
         for number, each in enumerate(self.channels):
-            wanted = max(each.low, min(each.high, commands[number] + each.trim))
+            wanted = max(each.low, min(each.high, self.sent(each, commands[number])))
             change = wanted - self.places[number]
             if each.slew and abs(change) > each.slew * seconds:
                 change = each.slew * seconds if change > 0 else -each.slew * seconds
             self.places[number] = min(1.0, max(0.0, self.places[number] + change))
         return Move(tuple(1 - p if c.reversed else p for p, c in zip(self.places, self.channels, strict=True)))
+
+    @staticmethod
+    def sent(each: Channel, command: float) -> float:
+        """Neutral with the trim, or from there so far to an end as the command goes, by the least share at least."""
+        rest, end = min(1.0, max(0.0, each.neutral + each.trim)), 1.0 if command > each.neutral else 0.0
+        if not (each.trim or each.least):
+            return command
+        if command == each.neutral:
+            return rest
+        share = (command - each.neutral) / (end - each.neutral)
+        return rest + (end - rest) * (each.least + (1 - each.least) * share)
 
     def passed(self, now: float) -> Order:
         if self.state != "following" or now < self.until:

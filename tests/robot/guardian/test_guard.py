@@ -161,6 +161,14 @@ def test_trim_limits_and_direction() -> None:
         assert robot.devices[0].written == pytest.approx([0.4, 0.4, 0.8, 0.2])
 
 
+def test_trim_and_least_keep_both_ends() -> None:
+    channel = Channel("wheel", 0.5, MockActuator(), trim=0.1, least=0.25)
+    with faked(channel) as robot:
+        for command in (0.0, 0.5, 1.0, 0.75, 0.50001, 0.49999, 0.25):
+            robot.frame(command)
+        assert robot.devices[0].written[1:] == pytest.approx([0.0, 0.6, 1.0, 0.85, 0.7, 0.45, 0.225], abs=1e-4)
+
+
 def test_slew_holds_every_command_but_not_neutral() -> None:
     with faked(Channel("wheel", 0.5, MockActuator(), slew=1.0)) as robot:
         for _ in range(4):
@@ -176,14 +184,15 @@ def test_slew_holds_every_command_but_not_neutral() -> None:
 
 RATIOS = st.floats(0, 1)
 CHANNELS = st.builds(
-    lambda neutral, trim, limits, slew, turned: Channel(
-        "any", neutral, MockActuator(), trim, min(limits), max(limits), slew, turned
+    lambda neutral, trim, limits, slew, turned, least: Channel(
+        "any", neutral, MockActuator(), trim, min(limits), max(limits), slew, turned, least
     ),
     RATIOS,
     st.floats(-1, 1),
     st.tuples(RATIOS, RATIOS),
     st.floats(0, 100),
     st.booleans(),
+    RATIOS,
 )
 EVENTS = st.one_of(
     st.tuples(st.just("frame"), st.tuples(*[st.floats(0, 1, width=32)] * 2), st.floats(0, 3 * TICK)),

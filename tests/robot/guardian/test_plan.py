@@ -136,7 +136,7 @@ def test_what_is_of_another_type_or_has_another_name_is_refused_anywhere() -> No
     assert from_json(json.dumps(tree)) == WIDE
 
 
-BOUNDS = {"neutral": (0, 1), "trim": (-1, 1), "low": (0, 0.9), "high": (0.2, 1), "slew": (0, 1e300)}
+BOUNDS = {"neutral": (0, 1), "trim": (-1, 1), "low": (0, 0.9), "high": (0.2, 1), "slew": (0, 1e300), "least": (0, 1)}
 
 
 @pytest.mark.parametrize("name", BOUNDS)

@@ -6,7 +6,7 @@ from typing import Annotated, Literal, get_args
 
 from mindrun.kinds.bodies.body import BodyKind, Drive, Point
 from mindrun.kinds.environment import Slot
-from mindrun.kinds.registry import base, kind
+from mindrun.kinds.registry import base, kind, left_out
 from mindrun.numbers.quantity import (
     ANGLE,
     INDEX,
@@ -44,6 +44,7 @@ class ActuatorKind:
 
     varying: tuple[str, ...] = ("delay",)  # the arguments that can differ from run to run
     drive: Drive | None = None  # what it does to a body, where it can move one
+    carries = False  # whether a sensor can sit on it and turn with it
     is_light = False  # whether it shines with its command
     reach: float | None = None  # ahead of the body, within which it takes items, in world units; None where none
 
@@ -100,7 +101,7 @@ class Pushing(ActuatorKind):
     noise: float
     slip: float
 
-    varying = ("thrust", "delay", "noise", "slip")
+    varying: tuple[str, ...] = ("thrust", "delay", "noise", "slip")
 
     def place(self, body: BodyKind) -> Point:
         """The point of the body that it pushes."""
@@ -125,15 +126,32 @@ class Pushing(ActuatorKind):
         }  # fmt: skip
 
 
+class Rolling(Pushing):
+    """Pushes by rolling: while it stands still, a command so near to 0.5 as `starts` says pushes nothing."""
+
+    __slots__ = ()
+
+    starts: float
+
+    varying = (*Pushing.varying, "starts")
+
+    def row(self, body: BodyKind) -> Row:
+        """The columns of what pushes, and the share below which it does not start."""
+        own = Pushing.row(self, body)
+        return {**own, "starts": self.starts} if self.starts > 0 else own
+
+
 SIDE = Reference("side", get_args(Side))
 
 
 @kind("actuator", "wheel")
-class Wheel(Pushing):
+class Wheel(Rolling):
     """A wheel on the body's rim: 0 full reverse, 0.5 stopped, 1 full forward; force (2v − 1)·thrust along the heading.
 
     A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less; up to `slip` of the
     force is lost, anew in every tick.
+    As long as it stands still, it does not push for a command that is less than the share `starts` of the way from 0.5
+    to 0 or 1.
     """
 
     side: Annotated[Side, SIDE]
@@ -142,6 +160,7 @@ class Wheel(Pushing):
     delay: Annotated[int, TICKS] = 0
     noise: Annotated[float, RATIO] = 0.0
     slip: Annotated[float, RATIO] = 0.0
+    starts: Annotated[float, RATIO] = left_out(0.0)
 
     drive = "wheel"
 
@@ -191,11 +210,13 @@ class Thruster(Pushing):
 
 
 @kind("actuator", "motor")
-class Motor(Pushing):
+class Motor(Rolling):
     """The drive of a car: 0 full reverse, 0.5 stopped, 1 full forward; force (2v − 1)·thrust along the heading.
 
     A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less; up to `slip` of the
     force is lost, anew in every tick.
+    As long as it stands still, it does not push for a command that is less than the share `starts` of the way from 0.5
+    to 0 or 1.
     """
 
     neutral: Annotated[float, RATIO]
@@ -203,11 +224,14 @@ class Motor(Pushing):
     delay: Annotated[int, TICKS] = 0
     noise: Annotated[float, RATIO] = 0.0
     slip: Annotated[float, RATIO] = 0.0
+    starts: Annotated[float, RATIO] = left_out(0.0)
 
     drive = "motor"
 
 
 DEGREE = pi / 180
+HALF_TURN = Quantity("an angle between 0 and 180 degrees", {"deg": DEGREE}, low=0.0, high=180 * DEGREE)
+TURNING = Quantity("an angle for each tick", {"deg": DEGREE}, low=0.0, high=360 * DEGREE, rate="added")
 TURN = Quantity("an angle between 0 and 80 degrees", {"deg": DEGREE}, low=0.0, high=80 * DEGREE)
 
 
@@ -268,10 +292,23 @@ class Gripper(ActuatorKind):
 
 @kind("actuator", "servo")
 class Servo(ActuatorKind):
-    """A servo: its position as a share of its travel. It moves nothing in the simulated world."""
+    """A servo on the body: 0 is `range` to the left, 0.5 straight ahead, 1 `range` to the right, as a bearing.
+
+    It turns towards its command with `speed`, and what is `on` it turns with it. It is at its neutral when a run
+    begins. A command acts `delay` ticks after the tick that computed it.
+    """
 
     neutral: Annotated[float, RATIO]
     delay: Annotated[int, TICKS] = 0
+    range: Annotated[float, HALF_TURN] = left_out(90 * DEGREE)
+    speed: Annotated[float, TURNING] = left_out(360 * DEGREE)
+
+    varying = ("delay", "range", "speed")
+    carries = True
+
+    def row(self, body: BodyKind) -> Row:
+        """The largest angle, in radians, and how far it turns in a tick."""
+        return {"turn": self.range, "speed": self.speed}
 
 
 @kind("actuator", "lamp")

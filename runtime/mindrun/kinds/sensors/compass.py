@@ -1,12 +1,14 @@
-"""The direction of north."""
+"""Directions of the world and of what turns on the robot."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Physical
-from mindrun.numbers.quantity import RATIO
+from mindrun.numbers.quantity import RATIO, SERVO
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
+    import numpy as np
+
     from mindrun.numbers.arithmetic import COSINE, HALF, SINE, F, bearing
 
 
@@ -30,3 +32,26 @@ class Compass(Physical):
         for p in range(n):
             v = bearing(F(s.heading[SINE, p]), F(s.heading[COSINE, p]))
             out[p] = HALF if abs(v - HALF) < sensor.dead_zone else v
+
+
+@kind("sensor", "direction")
+class Direction(Physical):
+    """Direction in which a servo looks: 0.5 straight ahead, less on the left, more on the right, as a bearing.
+
+    It goes round: noise leads from 0 to 1, which are both behind. It is where the servo is as the tick begins, and not
+    where it is sent.
+    """
+
+    of: Annotated[str, SERVO]
+
+    circular = True
+    scaled = True
+    tells_servo = True
+    blank = 0.5
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """0.5 − angle/2π."""
+        out, angles = s.readings[sensor.start], s.swivel[sensor.servo]
+        for p in range(n):
+            out[p] = F(0.5 - angles[p] / (2.0 * np.pi))

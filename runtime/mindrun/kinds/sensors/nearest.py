@@ -3,9 +3,9 @@
 from math import inf
 from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.kinds.registry import kind
+from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.sensors.sensor import Physical, Row, Scene
-from mindrun.numbers.quantity import LENGTH, POSITIVE, RATIO, THING
+from mindrun.numbers.quantity import LENGTH, POSITIVE, RATIO, SERVO, THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
@@ -41,11 +41,13 @@ class Bearing(Physical):
     It goes round: noise leads from 0 to 1, which are both behind.
     0.5 − atan2(y, x)/2π in the body's frame, of several the nearest's; of an obstacle, a wall or a map its nearest
     point's. Within `dead_zone` of straight ahead it reads 0.5; with a `range`, a thing farther away than that, too.
+    `on` a servo, straight ahead is where that looks.
     """
 
     of: Annotated[str, THING]
     range: Annotated[float, LENGTH] = 0.0
     dead_zone: Annotated[float, RATIO] = 0.0
+    on: Annotated[str, SERVO] = left_out("")
 
     circular = True
     scaled = True

@@ -2,10 +2,10 @@
 
 from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.kinds.registry import kind
+from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.sensors.sensor import Physical
 from mindrun.kinds.things.thing import WorldFacts
-from mindrun.numbers.quantity import ANGLE, POSITIVE, RATIO, THING
+from mindrun.numbers.quantity import ANGLE, POSITIVE, RATIO, SERVO, THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
@@ -24,6 +24,7 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
         box_of,
         clamp,
         place_of,
+        sine_cosine,
         size_of,
     )
 
@@ -32,12 +33,14 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 class RangeFinder(Physical):
     """Distance from the body's rim to what is solid, one reading per angle: 0 touching, 1 clear within `range`.
 
-    Angles turn counterclockwise from straight ahead. A reading below `dead_zone` is 0.
+    Angles turn counterclockwise from straight ahead, or from where the servo looks that it is `on`. A reading below
+    `dead_zone` is 0.
     """
 
     at: Annotated[tuple[float, ...], ANGLE] = (0.0,)
     range: Annotated[float, POSITIVE] = 12.0
     dead_zone: Annotated[float, RATIO] = 0.005
+    on: Annotated[str, SERVO] = left_out("")
 
     looks = True
     scaled = True
@@ -56,6 +59,11 @@ class RangeFinder(Physical):
         for ray in range(sensor.width):
             out, far = s.readings[sensor.start + ray], s.sight[4 + sensor.ray + ray]
             rim = t.rims[sensor.ray + ray]
+            if sensor.servo >= 0 and not t.world[0].is_round:
+                for p in range(n):
+                    v = clamp((far[p] - turned_rim(t, s, sensor, ray, p)) * scale)
+                    out[p] = ZERO if v < sensor.dead_zone else v
+                continue
             for p in range(n):
                 v = clamp((far[p] - rim) * scale)
                 out[p] = ZERO if v < sensor.dead_zone else v
@@ -66,13 +74,14 @@ class Eye(Physical):
     """Distance from the body's rim to a thing, one reading per angle: 0 touching or inside, 1 where the ray meets none.
 
     A range finder that sees all things of that name and no other, obstacles and walls too; whatever is solid before one
-    hides it, but for those of its own name that can be pushed. Angles turn counterclockwise from straight ahead. Of a
-    box that can be pushed it sees the disc in it.
+    hides it, but for those of its own name that can be pushed. Angles turn counterclockwise from straight ahead, or
+    from where the servo looks that it is `on`. Of a box that can be pushed it sees the disc in it.
     """
 
     of: Annotated[str, THING]
     at: Annotated[tuple[float, ...], ANGLE] = (0.0,)
     range: Annotated[float, POSITIVE] = 30.0
+    on: Annotated[str, SERVO] = left_out("")
 
     looks = True
     scaled = True
@@ -105,8 +114,20 @@ class Eye(Physical):
                 meet_rectangle(s.sight, s.frame, cosine, sine, out[k], n)
         for k in range(sensor.width):
             solid, rim = s.sight[4 + sensor.ray + k], t.rims[sensor.ray + k]
-            for p in range(n):
+            is_turned = sensor.servo >= 0 and not t.world[0].is_round
+            for p in range(n if is_turned else 0):
+                rim = turned_rim(t, s, sensor, k, p)
                 out[k, p] = clamp((out[k, p] - rim) * scale) if out[k, p] <= solid[p] else ONE
+            for p in range(0 if is_turned else n):
+                out[k, p] = clamp((out[k, p] - rim) * scale) if out[k, p] <= solid[p] else ONE
+
+
+def turned_rim(t: Any, s: Any, sensor: Any, ray: Any, p: Any) -> Any:
+    """The distance from a rectangular body's middle to its rim along a ray of a sensor that is on a servo."""
+    sine, cosine = sine_cosine(s.swivel[sensor.servo, p])
+    c, d = t.rays[COSINE, sensor.ray + ray], t.rays[SINE, sensor.ray + ray]
+    ahead, aside = abs(cosine * c - sine * d) / t.world[0].front, abs(sine * c + cosine * d) / t.world[0].side
+    return F(1.0 / (ahead if ahead > aside else aside))
 
 
 def locate(body: Any, things: Any, i: Any, frame: Any, n: Any) -> None:

@@ -11,7 +11,7 @@ from mindrun.kinds.registry import arguments, base, named_arguments
 from mindrun.kinds.things.about import AboutThing
 from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.expression import Formula
-from mindrun.numbers.quantity import ANGLE, RATIO, SENSOR, TICKS
+from mindrun.numbers.quantity import ANGLE, RATIO, SENSOR, SERVO, TICKS
 
 if TYPE_CHECKING:
     from mindrun.numbers.arrays import Reader
@@ -77,6 +77,7 @@ class SensorKind(AboutThing):
     looks = False  # whether its readings are how far it is along rays, 1 from `range` on
     scaled = False  # whether its values mean something by themselves, so that they need no calibration
     near: int | None = None  # the reading of what is near
+    tells_servo = False  # whether it reads where its servo looks
     unit = ""  # of a driver that measures the same: m for a length, m/s for a speed
     is_given = False  # whether somebody has to read it: the engine does not compute it
     is_order = False  # whether it is what somebody says
@@ -112,6 +113,11 @@ class SensorKind(AboutThing):
     def sources(self) -> tuple[str, ...]:
         """All sensors and memories from which it is computed."""
         return (self.source,) if self.source else ()
+
+    @property
+    def servo(self) -> str:
+        """The servo with which it turns, or whose direction it reads; empty for none."""
+        return self.named(SERVO)
 
     @property
     def formula(self) -> Formula:

@@ -120,12 +120,24 @@ class Guard:
 
 
 def moved(channel: Channel, command: float, before: float, seconds: float) -> float:
-    """A command with the trim, within the limits, no further from the value before than the slew allows."""
-    value = min(max(command + channel.trim, channel.low), channel.high)
+    """A command as it moves, within the limits, no further from the value before than the slew allows."""
+    value = min(max(started(channel, command), channel.low), channel.high)
     if channel.slew > 0:
         step = channel.slew * seconds
         value = min(max(value, before - step), before + step)
     return min(max(value, 0.0), 1.0)
+
+
+def started(channel: Channel, command: float) -> float:
+    """A command from neutral with the trim to the same ends, of which it makes the least share at once."""
+    if channel.trim == 0 and channel.least == 0:
+        return command
+    rest = min(max(channel.neutral + channel.trim, 0.0), 1.0)
+    end = float(command > channel.neutral)
+    if command == channel.neutral or end == channel.neutral:
+        return rest
+    share = (command - channel.neutral) / (end - channel.neutral)
+    return rest + (end - rest) * (channel.least + (1.0 - channel.least) * share)
 
 
 def turned(channel: Channel, value: float) -> float:

@@ -14,6 +14,7 @@ from mindrun.errors import MindError, system_errors_as
 from mindrun.files.regular_files import read_regular
 from mindrun.files.strict_json import parsed
 from mindrun.graph.codec import decode, encode
+from mindrun.kinds.registry import left_out
 from mindrun.numbers.quantity import RATIO, SECONDS, Quantity
 from mindrun.robot.guardian.messages import MAX_COMMANDS
 
@@ -37,6 +38,7 @@ class Channel:
     high: Annotated[float, RATIO] = 1.0
     slew: Annotated[float, NOT_NEGATIVE] = 0.0
     reversed: bool = False
+    least: Annotated[float, RATIO] = left_out(0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +52,7 @@ class Plan:
 def plan_of(tick: float, neutrals: Mapping[str, float], wiring: "Wiring") -> Plan:
     """The plan of a robot whose mind declares these neutral commands by the names of its actuators."""
     channels = (
-        Channel(w.actuator, neutrals[w.actuator], w.driver, w.trim, w.low, w.high, w.slew, w.reversed)
+        Channel(w.actuator, neutrals[w.actuator], w.driver, w.trim, w.low, w.high, w.slew, w.reversed, w.least)
         for w in wiring.actuators
     )
     return checked(Plan(tick, tuple(channels)))

@@ -1,10 +1,15 @@
 """Act: the commands that the influence makes (Eq. 3), their delays, and the claw; the memory cells when all is done."""
 
+import numpy as np
+
 from mindrun.numbers.arithmetic import (
     COSINE,
     HALF,
     ONE,
     SINE,
+    SPEED_X,
+    SPEED_Y,
+    SPIN,
     ZERO,
     F,
     X,
@@ -17,12 +22,13 @@ from mindrun.numbers.arithmetic import (
     size_of,
     uniform,
 )
-from mindrun.sim.codes import GRIPPER, ITEM, Tables
+from mindrun.sim.codes import GRIPPER, ITEM, SERVO, Tables
 from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred, is_blocked, is_walled
 from mindrun.sim.state import State
 from mindrun.sim.units import unit, unit_where
 
 UNDRIVEN = F(-1)
+STANDING_UNITS = 1e-3  # a second: what rolls more slowly stands still
 
 
 @unit
@@ -40,8 +46,12 @@ def act(tables: Tables, state: State, lanes: int) -> None:
             for lane in range(lanes):
                 slip = world.numbers[actuator.slip, lane]
                 world.grip[i, lane] = 1.0 - slip * uniform(world.random, lane, 0.0, 1.0)
+        if actuator.is_sticky:
+            stick(tables, state, i, lanes)
         if actuator.kind == GRIPPER:
             grip(tables, state, i, lanes)
+        if actuator.kind == SERVO:
+            turn(tables, state, i, lanes)
 
 
 def recall(tables, state, lanes):
@@ -94,6 +104,32 @@ def disturb(tables: Tables, state: State, i: int, lanes: int) -> None:
             acting[lane] = clamp(commands[lane] + F(noise[lane]) * F(uniform(world.random, lane, -1.0, 1.0)))
         if actuator.fails >= 0 and world.tick[lane] >= stuck[lane]:
             acting[lane] = actuator.neutral
+
+
+@unit_where(lambda tables: tables.actuators["is_sticky"].any())
+def stick(tables: Tables, state: State, i: int, lanes: int) -> None:
+    """Let actuator i keep nothing of its force where it stands still and its command is too small to start it."""
+    world, actuator, body, heading = state.world, tables.actuators[i], state.world.body, state.world.heading
+    commands, kept, starts = (
+        world.acting[i] if actuator.is_rough else state.mind.commands[i], world.grip[i], world.numbers[actuator.starts]
+    )  # fmt: skip
+    for lane in range(lanes):
+        ahead = body[SPEED_X, lane] * heading[COSINE, lane] + body[SPEED_Y, lane] * heading[SINE, lane]
+        rolls = abs(ahead + actuator.arm * body[SPIN, lane]) >= STANDING_UNITS
+        starts_now = abs(2.0 * np.float64(commands[lane]) - 1.0) >= starts[lane]
+        share = kept[lane] if actuator.is_slipping else 1.0
+        kept[lane] = share if rolls or starts_now else 0.0
+
+
+@unit_where(lambda tables: (tables.actuators["kind"] == SERVO).any())
+def turn(tables: Tables, state: State, i: int, lanes: int) -> None:
+    """Turn servo i towards its command, by no more than its speed."""
+    world, actuator = state.world, tables.actuators[i]
+    commands, angles = world.acting[i] if actuator.is_rough else state.mind.commands[i], world.swivel[i]
+    for lane in range(lanes):
+        most = world.numbers[actuator.speed, lane]
+        left = (1.0 - 2.0 * np.float64(commands[lane])) * world.numbers[actuator.turn, lane] - angles[lane]
+        angles[lane] += most if left > most else -most if left < -most else left
 
 
 @unit_where(lambda tables: (tables.actuators["kind"] == GRIPPER).any())

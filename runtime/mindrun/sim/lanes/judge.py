@@ -3,10 +3,11 @@
 import numpy as np
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
-from mindrun.numbers.arithmetic import COSINE, SINE, X, Y, distance_of, inside, place_of
+from mindrun.numbers.arithmetic import BOX_COLUMNS, COSINE, SINE, X, Y, distance_of, inside, place_of
 from mindrun.sim import codes
 from mindrun.sim.codes import DELIVERY, GOING_ON, LEAVE, REACH, Tables
 from mindrun.sim.lanes.reaching import arrivals, become, begun_of, cross, meet
+from mindrun.sim.lanes.solid import put_box
 from mindrun.sim.lanes.think import run_program
 from mindrun.sim.state import PLACE_ROWS, State, WorldState
 from mindrun.sim.units import unit, unit_where
@@ -129,7 +130,7 @@ def find_paid(tables, state, line, paid, each, lanes):
 
 
 def meet_end(tables, state, end, i, lanes, interrupt):
-    """End the runs to which end number i has come before any other."""
+    """End the runs to which end number i has come before any other, or open what it opens."""
     judged, run = state.judge, state.run
     if end.event >= 0:
         if judged.happened[end.event] == 0:
@@ -141,6 +142,9 @@ def meet_end(tables, state, end, i, lanes, interrupt):
         run_program(tables, state, end.when, end.whens, 0, lanes, True)
         for lane in range(lanes):
             judged.paid[lane] = 1.0 if state.mind.stack[0, lane] > 0.0 else 0.0
+    if not end.is_end:
+        open_boxes(tables, state, i, lanes)
+        return
     met = 0
     for lane in range(lanes):
         if judged.paid[lane] > 0.0 and run.met[lane] == GOING_ON:
@@ -151,6 +155,17 @@ def meet_end(tables, state, end, i, lanes, interrupt):
             judged.paid[lane] = 0.0
     if met > 0 and end.succeeds:
         mark_success(tables, judged, lanes)
+
+
+@unit_where(lambda tables: (tables.ends["is_end"] == 0).any())
+def open_boxes(tables: Tables, state: State, i: int, lanes: int) -> None:
+    """Put the boxes that end number i opens out of the world, where it has come; sight is chosen anew there."""
+    boxes, end, come = state.world.boxes, tables.ends[i], state.judge.paid
+    for lane in range(lanes):
+        for b in range(end.box, end.box + (end.boxes if come[lane] > 0.0 else 0)):
+            if boxes[lane, BOX_COLUMNS * b + X] != codes.AWAY:
+                put_box(boxes[lane], b, codes.AWAY, codes.AWAY, 0.0, 0.0)
+                state.sight.anchor[X, lane] = np.nan
 
 
 def mark_success(tables, judged, lanes):

@@ -4,7 +4,7 @@ import numpy as np
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import ANGLE, COSINE, SINE, X, Y, sine_cosine
-from mindrun.sim.codes import DRAWN_NUMBER, GOING_ON, LEAVE, LOST, VISIT, Tables
+from mindrun.sim.codes import DRAWN_NUMBER, GOING_ON, LEAVE, LOST, SERVO, VISIT, Tables
 from mindrun.sim.lanes.drawn_numbers import draw_numbers, set_numbers
 from mindrun.sim.lanes.judge import patch_of
 from mindrun.sim.lanes.placement import draw, vanish
@@ -91,6 +91,8 @@ def reset(tables, state, lane):
     for i in range(len(tables.actuators)):
         actuator = tables.actuators[i]
         judge.last_commands[i, lane] = actuator.neutral
+        if actuator.kind == SERVO:
+            world.swivel[i, lane] = (1.0 - 2.0 * actuator.neutral) * world.numbers[actuator.turn, lane]
         for k in range(actuator.delay):
             mind.late[actuator.ring + k, lane] = actuator.neutral
     for i in range(len(tables.memories)):
@@ -128,6 +130,7 @@ def move(state, source, target):
     contact, run = state.contact, state.run
     for rows in (world.body, world.heading, world.things, world.trail, world.loose, world.numbers, world.direction):
         copy_lane(rows, source, target)
+    copy_lane(world.swivel, source, target)
     for rows in (world.reached, world.delivered, judge.arrived):
         copy_lane(rows, source, target)
     for rows in (world.still, world.goal, judge.counts):

@@ -3,6 +3,7 @@
 import numpy as np
 
 from mindrun.numbers.arithmetic import (
+    ANGLE,
     BOX_COLUMNS,
     COSINE,
     DISTANCE,
@@ -70,13 +71,32 @@ def sense(tables: Tables, state: State, lanes: int, clock: int) -> None:
     if tables.world[0].rays > 0:
         look(tables, world, sight, lanes)
         if len(tables.loose) > 0:
-            look_at_loose(tables, world, sight, lanes)
+            look_at_loose(tables, world, sight, 0, len(tables.ray_row), lanes)
     sight.nearest_of[0] = -1
     for i in range(len(tables.sensors)):
         sensor = tables.sensors[i]
+        if sensor.servo >= 0:
+            face(tables, world, sight, i, 1, lanes)
         read(sensor.lane, tables, state.senses, lanes, clock, sensor)
+        if sensor.servo >= 0:
+            face(tables, world, sight, i, 0, lanes)
         if sensor.is_rough:
             roughen(tables, world, mind, i, lanes)
+
+
+@unit_where(lambda tables: (tables.sensors["servo"] >= 0).any())
+def face(tables: Tables, world: WorldState, sight: SightState, i: int, is_turned: int, lanes: int) -> None:
+    """Let the heading be that of the servo that sensor i is on, and its rays too; or the robot's own again."""
+    sensor, angles = tables.sensors[i], world.swivel[tables.sensors[i].servo]
+    for lane in range(lanes):
+        angle = world.body[ANGLE, lane] + (angles[lane] if is_turned else 0.0)
+        world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(angle)
+    set_out(world, sight, lanes)
+    first, last = sensor.ray, sensor.ray + sensor.width
+    if is_turned and first < len(tables.ray_row) and tables.ray_row[first] == sensor.start:
+        cast(tables, sight, first, last, lanes)
+        if len(tables.loose) > 0:
+            look_at_loose(tables, world, sight, first, last, lanes)
 
 
 @unit_where(lambda tables: tables.sensors["is_rough"].any())
@@ -129,16 +149,27 @@ def measure_distances(body, things, count, lanes):
 
 def look(tables, world, sight, lanes):
     """Compute the distance from each robot's centre along each ray into `sight`, after heading and place."""
-    rows, count, constants = sight.sight, sight.nearby_most[0], tables.world[0]
-    half_x, half_y = F(constants.half_x), F(constants.half_y)
-    for k in range(count):
+    for k in range(sight.nearby_most[0]):
         box = sight.nearby[BOX_COLUMNS * k : BOX_COLUMNS * (k + 1)]
         place(world.body, box, sight.sides[SIDES * k : SIDES * (k + 1)], lanes)
+    set_out(world, sight, lanes)
+    cast(tables, sight, 0, len(tables.ray_row), lanes)
+
+
+def set_out(world, sight, lanes):
+    """Write where each robot is and its heading into `sight`."""
+    rows = sight.sight
     for lane in range(lanes):
         rows[SIGHT_COSINE, lane], rows[SIGHT_SINE, lane] = F(world.heading[COSINE, lane]), F(world.heading[SINE, lane])
         rows[SIGHT_X, lane], rows[SIGHT_Y, lane] = F(world.body[X, lane]), F(world.body[Y, lane])
+
+
+def cast(tables, sight, first, last, lanes):
+    """Compute how far the rays from `first` to before `last` go, among what is fixed."""
+    rows, count, constants = sight.sight, sight.nearby_most[0], tables.world[0]
+    half_x, half_y = F(constants.half_x), F(constants.half_y)
     for lane in range(0, lanes, LANES):
-        for ray in range(len(tables.ray_row)):
+        for ray in range(first, last):
             cosine, sine = tables.rays[COSINE, ray], tables.rays[SINE, ray]
             store(rows, FIRST_RAY + ray, lane, along(rows, cosine, sine, half_x, half_y, sight.sides, count, lane))
 
@@ -202,13 +233,13 @@ def place(body, box, sides, lanes):
 
 
 @unit_where(lambda tables: len(tables.loose) > 0 and tables.world[0]["rays"] > 0)
-def look_at_loose(tables: Tables, world: WorldState, sight: SightState, lanes: int) -> None:
-    """Shorten every ray that meets a loose thing, but for one of those that its own sensor looks for."""
+def look_at_loose(tables: Tables, world: WorldState, sight: SightState, first: int, last: int, lanes: int) -> None:
+    """Shorten each of some rays that meets a loose thing, but for one of those that its own sensor looks for."""
     rows, frame = sight.sight, sight.frame
     for i in range(len(tables.loose)):
         enter_frame(tables, world, frame, i, lanes)
         thing = tables.loose[i].thing
-        for ray in range(len(tables.ray_row)):
+        for ray in range(first, last):
             cosine, sine, out = tables.rays[COSINE, ray], tables.rays[SINE, ray], rows[FIRST_RAY + ray]
             if (tables.passes[0, ray] <= thing) & (thing < tables.passes[1, ray]):
                 continue

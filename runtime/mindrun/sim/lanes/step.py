@@ -92,7 +92,7 @@ def thrust(tables, world, mind, lanes):
 
 def drive(commands, actuator, strength, kept, push, lanes):
     """Add an actuator's force (2v − 1)·thrust, less what slips, and its torque to `push`."""
-    ahead, aside, arm, slips = actuator.ahead, actuator.aside, actuator.arm, actuator.is_slipping
+    ahead, aside, arm, slips = actuator.ahead, actuator.aside, actuator.arm, actuator.is_slipping | actuator.is_sticky
     for lane in range(lanes):
         pushed = (2.0 * commands[lane] - 1.0) * strength[lane]
         pushed *= kept[lane] if slips else 1.0
