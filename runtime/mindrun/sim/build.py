@@ -82,7 +82,7 @@ def sensor_rows(
     What is aside draws its noise from a generator of its own, what is exact has none: neither changes anything else.
     """
     (used, aside, exact), scene, things, boxes = measured, scene_of(graph), rows_by_name(task), boxes_by_name(task)
-    rows, before, rough, rings, orders = list[Row](), 0, 0, 0, [s.name for s in graph.sensors if s.kind.is_order]
+    rows, before, rough, rings = list[Row](), 0, 0, 0
     rays, ray_row, passes, numbers = list[float](), list[int](), list[tuple[int, int]](), list[float]()
     for sensor in used + aside + exact:
         kind, roughness = sensor.kind, {} if sensor in exact else _roughness(sensor, parameters)
