@@ -312,8 +312,7 @@ def _skills(draw: st.DrawFn, name: str, width: int, targets: list[tuple[str, int
         edges.append(replace(edge, gate=gate, cuts=cuts, over=tuple(sorted(over))))
     called = Procedure(f"own.send{outputs}") if function is CALLED else function
     chooses = any(edge.to == "skill" for edge in edges) and draw(st.integers(0, 3)) == 0
-    files = ("own.py",) if function is CALLED and draw(st.booleans()) else ()
-    return Skill(name, called, inputs, tuple(edges), frozen=draw(st.booleans()), chooses=chooses, files=files)
+    return Skill(name, called, inputs, tuple(edges), frozen=draw(st.booleans()), chooses=chooses)
 
 
 @st.composite
