@@ -357,9 +357,8 @@ def _skills(draw: st.DrawFn, name: str, width: int, targets: list[tuple[str, int
     called = Procedure(f"own.send{outputs}") if function is CALLED else function
     chooses = any(edge.to == "skill" for edge in edges) and draw(st.integers(0, 3)) == 0
     promises = tuple(draw(st.lists(_promises(range(width)), max_size=3)) if draw(st.integers(0, 3)) == 0 else ())
-    files = ("own.py",) if function is CALLED and draw(st.booleans()) else ()
     frozen = draw(st.booleans())
-    return Skill(name, called, inputs, tuple(edges), frozen, chooses=chooses, promises=promises, files=files)
+    return Skill(name, called, inputs, tuple(edges), frozen, chooses=chooses, promises=promises)
 
 
 @st.composite

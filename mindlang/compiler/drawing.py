@@ -40,6 +40,8 @@ def tree(mind: Mind) -> "Tree":
             branch.add(Text(comment, "italic"))
         if skill.reads:
             branch.add(Text(f"reads {', '.join(skill.reads)}"))
+        if skill.files:
+            branch.add(Text(f"uses {', '.join(skill.files)}"))
         for edge in (edge for edge in skill.edges if edge.to != "skill"):
             branch.add(Text(f"drives {edge.target}{text_after_name(edge.fact)}"))
         for promise in skill.promises:

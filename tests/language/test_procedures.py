@@ -121,6 +121,9 @@ def test_every_door_says_which_file_is_missing(mindc: Call, calling: Path) -> No
     bundle = calling.parent / "x.bundle"
     assert (mindc("check", calling).code, mindlang.load(calling).is_valid) == (0, True)
     assert mindc("build", calling, "-o", bundle, "--master", "Turn").code == 0
+    (calling.parent / "turning.py").write_text(f"FILE = 'policy.onnx'\n{RIGHT}")
+    assert "never says __file__" in mindc("check", calling).err
+    (calling.parent / "turning.py").write_text(f"FILE = open(__file__), 'policy.onnx'\n{RIGHT}")
     (calling.parent / "policy.onnx").unlink()
     mind = mindlang.load(calling)
     said = [mindc(*words).err + mindc(*words).out for words in (("check", calling), ("lint", calling))]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from mindrun.graph.graph import Skill
 from mindrun.kinds.functions.procedure import module_source
-from mindrun.kinds.procedure_names import imports, texts
+from mindrun.kinds.procedure_names import imports, opened, texts
 from mindrun.kinds.procedure_text import NOT_USED, STANDS_ALONE, fault, fit, parsed
 
 
@@ -27,6 +27,9 @@ def source_of(skill: Skill, folder: Path) -> str:
             raise fault(calls, f"imports {module}, a file that no bundle holds", line, STANDS_ALONE)
         if _is(Path.is_dir, folder / top) and not is_installed(top, folder):  # a package without an __init__.py
             raise fault(calls, f"imports {module}, a folder that no bundle holds", line, STANDS_ALONE)
+    if skill.files and all(by != "__file__" for _, by in opened(names)):
+        hint = f'Open them wherever it runs: Path(__file__).parent / "{skill.files[0]}"'
+        raise fault(calls, "never says __file__, beside which the files are that the skill uses", hint=hint)
     for line, text in texts(names):
         if "." in text and text not in skill.files and _is(Path.is_file, folder / text):
             raise fault(calls, f"names {text}, a file that no bundle holds", line, NOT_USED)

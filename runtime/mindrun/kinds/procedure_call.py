@@ -17,7 +17,7 @@ from weakref import finalize
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.errors import ProcedureError
+from mindrun.errors import ProcedureError, system_errors_as
 from mindrun.kinds.procedure_text import FILES, Sources, examine, file_of, module_of
 from mindrun.numbers.given_numbers import number, values
 
@@ -51,7 +51,8 @@ def load(calls: str, sources: Sources) -> Callable[..., Any]:
     module = ModuleType(f"_mind_{module_of(calls).replace('.', '_')}_{digest}")
     sys.modules[module.__name__] = module  # dataclasses look their module up
     if files:
-        module.__file__ = str(_folder_of(files) / path)
+        with system_errors_as(ProcedureError, f"procedure from {calls}: its files cannot be written"):
+            module.__file__ = str(_folder_of(files) / path)
     try:
         exec(_code(source, path), module.__dict__)
     except KeyboardInterrupt:
