@@ -356,7 +356,7 @@ def _skills(draw: st.DrawFn, name: str, width: int, targets: list[tuple[str, int
         edges.append(replace(edge, gate=gate, cuts=cuts, over=tuple(sorted(over))))
     called = Procedure(f"own.send{outputs}") if function is CALLED else function
     chooses = any(edge.to == "skill" for edge in edges) and draw(st.integers(0, 3)) == 0
-    promises = tuple(draw(st.lists(_promises(range(width)), max_size=3)) if draw(st.integers(0, 3)) == 0 else ())
+    promises = tuple(draw(st.lists(_promises(range(width)), max_size=2)) if draw(st.integers(0, 7)) == 0 else ())
     frozen = draw(st.booleans())
     return Skill(name, called, inputs, tuple(edges), frozen, chooses=chooses, promises=promises)
 
@@ -365,7 +365,8 @@ def _skills(draw: st.DrawFn, name: str, width: int, targets: list[tuple[str, int
 def _promises(draw: st.DrawFn, readings: range) -> Promise:
     """Something that a skill promises of any readings."""
     word = draw(st.sampled_from(["requires", "maintains", "achieves"]))
-    return Promise(word, f"{word} something", draw(conditions(programs(tuple(readings)))))
+    compare = draw(st.sampled_from(["<", ">="]))
+    return Promise(word, f"{word} it", (("reading", draw(st.sampled_from(readings))), ("number", 0.4), (compare, 0)))
 
 
 @st.composite

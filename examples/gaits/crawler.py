@@ -10,11 +10,12 @@ from gymnasium.spaces import Box
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
-SECONDS, RATE, STRIDE = 1 / 20, 4.0, 0.5  # of a step; how fast a foot moves, and how far the body, by one of foot
+STEP_SECONDS = 1 / 20
+FOOT_RATE, BODY_SHARE = 4.0, 0.5  # how fast a foot moves, and how far the body, by one of foot
 SIDES, ACROSS = ((0, 2), (1, 3)), ((0, 3), (1, 2))  # of front left, front right, hind left, hind right
-HIPS, WIDTH, NEAR = ((1, 1), (1, -1), (-1, 1), (-1, -1)), 2.0, 1.0
+HIPS, BODY_WIDTH, NEAR_UNITS = ((1, 1), (1, -1), (-1, 1), (-1, -1)), 2.0, 1.0
 OUTLINE = (1.4, 0.0), (1.0, 0.7), (-1.0, 0.7), (-1.0, -0.7), (1.0, -0.7)
-PIXELS, SCALE = 320, 16
+SIDE_PIXELS, UNIT_PIXELS = 320, 16
 
 Place = tuple[float, float]
 
@@ -51,7 +52,7 @@ class Crawler(gymnasium.Env[NDArray[np.float64], NDArray[np.float64]]):
     def _seen(self) -> NDArray[np.float64]:
         dx, dy = self._away()
         turn = (atan2(dy, dx) - self.heading + pi) % (2 * pi) - pi
-        return np.array([*self.feet, -turn / pi, self.speed / (RATE * STRIDE)])
+        return np.array([*self.feet, -turn / pi, self.speed / (FOOT_RATE * BODY_SHARE)])
 
     def step(self, action: NDArray[np.float64]) -> tuple[NDArray[np.float64], float, bool, bool, dict[str, Any]]:
         """Push with the feet that are down, where it stands on them: on three, or on two across from another."""
@@ -60,46 +61,46 @@ class Crawler(gymnasium.Env[NDArray[np.float64], NDArray[np.float64]]):
         stands = len(down) > 2 or tuple(down) in ACROSS
         pushed = [self._side([i for i in side if i in down], swing) if stands else 0.0 for side in SIDES]
         for i in range(4):
-            rate = RATE * swing[i] if self.up[i] else -pushed[i % 2]
-            self.feet[i] = min(max(self.feet[i] + SECONDS * rate, -1.0), 1.0)
-        left, right = (STRIDE * each for each in pushed)
+            rate = FOOT_RATE * swing[i] if self.up[i] else -pushed[i % 2]
+            self.feet[i] = min(max(self.feet[i] + STEP_SECONDS * rate, -1.0), 1.0)
+        left, right = (BODY_SHARE * each for each in pushed)
         self.speed = (left + right) / 2
         before = hypot(*self._away())
-        self.heading += SECONDS * (right - left) / WIDTH
-        self.x += SECONDS * self.speed * cos(self.heading)
-        self.y += SECONDS * self.speed * sin(self.heading)
+        self.heading += STEP_SECONDS * (right - left) / BODY_WIDTH
+        self.x += STEP_SECONDS * self.speed * cos(self.heading)
+        self.y += STEP_SECONDS * self.speed * sin(self.heading)
         self.track.append((self.x, self.y))
         after = hypot(*self._away())
-        if after < NEAR:
+        if after < NEAR_UNITS:
             self._place()
-        return self._seen(), before - after + 10 * (after < NEAR), False, False, {}
+        return self._seen(), before - after + 10 * (after < NEAR_UNITS), False, False, {}
 
     def _side(self, down: Sequence[int], swing: Sequence[float]) -> float:
         """How fast the feet of a side push: their mean, and none where one of them is at its end."""
-        rate = -RATE * sum(swing[i] for i in down) / max(len(down), 1)
+        rate = -FOOT_RATE * sum(swing[i] for i in down) / max(len(down), 1)
         return 0.0 if any(self.feet[i] * rate <= -abs(rate) for i in down) else rate
 
     def render(self) -> Any:
         """Draw it in the middle of a picture, with its track; feet that are down are filled."""
-        image = Image.new("RGB", (PIXELS, PIXELS), "white")
+        image = Image.new("RGB", (SIDE_PIXELS, SIDE_PIXELS), "white")
         draw = ImageDraw.Draw(image)
 
         def at(x: float, y: float) -> Place:
-            return PIXELS / 2 + SCALE * (x - self.x), PIXELS / 2 - SCALE * (y - self.y)
+            return SIDE_PIXELS / 2 + UNIT_PIXELS * (x - self.x), SIDE_PIXELS / 2 - UNIT_PIXELS * (y - self.y)
 
         def of_body(ahead: float, aside: float) -> Place:
             c, s = cos(self.heading), sin(self.heading)
             return at(self.x + c * ahead - s * aside, self.y + s * ahead + c * aside)
 
         def disc(place: Place, radius: float, fill: str) -> None:
-            x, y, r = *place, SCALE * radius
+            x, y, r = *place, UNIT_PIXELS * radius
             draw.ellipse((x - r, y - r, x + r, y + r), fill, "black", 2)
 
-        disc(at(*self.flag), NEAR, "#5fb37f")
+        disc(at(*self.flag), NEAR_UNITS, "#5fb37f")
         draw.line([at(*place) for place in self.track], "#8ab4e0", 3)
         draw.polygon([of_body(*corner) for corner in OUTLINE], "#20242c")
         for (ahead, aside), foot, up in zip(HIPS, self.feet, self.up, strict=True):
-            place = of_body(ahead + STRIDE * foot, 1.2 * aside)
+            place = of_body(ahead + BODY_SHARE * foot, 1.2 * aside)
             draw.line([of_body(ahead, 0.7 * aside), place], "#20242c", 4)
             disc(place, 0.22, "white" if up else "#e05a4f")
         return np.asarray(image)

@@ -12,7 +12,8 @@ from mindlang.explaining.kinds import NOUNS, kind_articles
 
 ARTICLES = {(each.noun, each.name): each for each in kind_articles()}
 WITHOUT_PICTURE = {  # a number of their own, or of the environment's
-    "battery", "computed", "contact", "held", "inertial", "inside", "light", "mirrored", "observation", "observations",
+    "battery", "broken", "computed", "contact", "held", "inertial", "inside", "light", "mirrored", "observation",
+    "observations",
     "order", "position", "reading", "turned",
 }  # fmt: skip
 SVG = "{http://www.w3.org/2000/svg}"
