@@ -13,7 +13,8 @@ from PIL import Image, ImageDraw
 STEP_SECONDS = 1 / 20
 FOOT_RATE, BODY_SHARE = 4.0, 0.5  # how fast a foot moves, and how far the body, by one of foot
 SIDES, ACROSS = ((0, 2), (1, 3)), ((0, 3), (1, 2))  # of front left, front right, hind left, hind right
-HIPS, BODY_WIDTH, NEAR_UNITS = ((1, 1), (1, -1), (-1, 1), (-1, -1)), 2.0, 1.0
+HIPS = (1, 1), (1, -1), (-1, 1), (-1, -1)
+BODY_WIDTH, NEAR_UNITS = 2.0, 1.0
 OUTLINE = (1.4, 0.0), (1.0, 0.7), (-1.0, 0.7), (-1.0, -0.7), (1.0, -0.7)
 SIDE_PIXELS, UNIT_PIXELS = 320, 16
 

@@ -19,7 +19,7 @@ Examples:
 @click.argument("file")
 @written("-o --output", "PATH", "The file, which is not there yet: -o robot.yaml. Default: standard output.")
 def command(file: str, output: Path | None) -> None:
-    """Write a robot.yaml for FILE, in which pins are to be filled in.
+    """Write a robot.yaml for FILE, with pins to fill in.
 
     `mindc build FILE --robot robot.yaml` says what is still missing. Another driver can be written instead:
     `mindc kinds driver` lists them.
