@@ -267,6 +267,7 @@ def _declarations(rng: Random) -> list[list[str]]:
         above = next(block for block in blocks if block[0].startswith(f"skill {skills[0]} "))
         above += ["reads pulseN where N is 2 to 4", "influences StepK at 1/2 where K is 1 to 2"]
         blocks += [["sensor pulseN is clock period 2 s where N is 1 to 4"], ["sensor wish is order 1 to 3"]]
+        next(block for block in blocks if block[0].startswith("task ")).append("ends when pulseN > 1 where N is 1 to 2")
         blocks += [["sensor wishN is reading N of wish where N is 1 to 3"]]
         blocks += [[STEPS, "reads pulseN", "reads wishN", "drives mast"]]
     if learners:

@@ -16,6 +16,8 @@ REACHED = {
     "patrol": ("Guard", ["score_mean"], 190.0),
     "soccer": ("Score", ["success", "mean"], 0.9),
     "sort": ("Sort", ["success", "mean"], 0.85),
+    "stations": ("Tour", ["success", "mean"], 0.9),
+    "tmaze": ("Run", ["success", "mean"], 0.95),
 }
 PICTURE_BYTES = 120_000
 
