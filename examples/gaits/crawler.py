@@ -12,10 +12,10 @@ from PIL import Image, ImageDraw
 
 STEP_SECONDS = 1 / 20
 FOOT_RATE, BODY_SHARE = 4.0, 0.5  # how fast a foot moves, and how far the body, by one of foot
-SIDES, ACROSS = ((0, 2), (1, 3)), ((0, 3), (1, 2))  # of front left, front right, hind left, hind right
-HIPS = (1, 1), (1, -1), (-1, 1), (-1, -1)
+SIDE_FEET, DIAGONAL_FEET = ((0, 2), (1, 3)), ((0, 3), (1, 2))  # of front left, front right, hind left, hind right
+HIP_PLACES = (1, 1), (1, -1), (-1, 1), (-1, -1)
 BODY_WIDTH, NEAR_UNITS = 2.0, 1.0
-OUTLINE = (1.4, 0.0), (1.0, 0.7), (-1.0, 0.7), (-1.0, -0.7), (1.0, -0.7)
+BODY_OUTLINE = (1.4, 0.0), (1.0, 0.7), (-1.0, 0.7), (-1.0, -0.7), (1.0, -0.7)
 SIDE_PIXELS, UNIT_PIXELS = 320, 16
 
 Place = tuple[float, float]
@@ -59,8 +59,8 @@ class Crawler(gymnasium.Env[NDArray[np.float64], NDArray[np.float64]]):
         """Push with the feet that are down, where it stands on them: on three, or on two across from another."""
         swing, self.up = action[:4].tolist(), [lift > 0 for lift in action[4:].tolist()]
         down = [i for i in range(4) if not self.up[i]]
-        stands = len(down) > 2 or tuple(down) in ACROSS
-        pushed = [self._side([i for i in side if i in down], swing) if stands else 0.0 for side in SIDES]
+        stands = len(down) > 2 or tuple(down) in DIAGONAL_FEET
+        pushed = [self._side([i for i in side if i in down], swing) if stands else 0.0 for side in SIDE_FEET]
         for i in range(4):
             rate = FOOT_RATE * swing[i] if self.up[i] else -pushed[i % 2]
             self.feet[i] = min(max(self.feet[i] + STEP_SECONDS * rate, -1.0), 1.0)
@@ -99,8 +99,8 @@ class Crawler(gymnasium.Env[NDArray[np.float64], NDArray[np.float64]]):
 
         disc(at(*self.flag), NEAR_UNITS, "#5fb37f")
         draw.line([at(*place) for place in self.track], "#8ab4e0", 3)
-        draw.polygon([of_body(*corner) for corner in OUTLINE], "#20242c")
-        for (ahead, aside), foot, up in zip(HIPS, self.feet, self.up, strict=True):
+        draw.polygon([of_body(*corner) for corner in BODY_OUTLINE], "#20242c")
+        for (ahead, aside), foot, up in zip(HIP_PLACES, self.feet, self.up, strict=True):
             place = of_body(ahead + BODY_SHARE * foot, 1.2 * aside)
             draw.line([of_body(ahead, 0.7 * aside), place], "#20242c", 4)
             disc(place, 0.22, "white" if up else "#e05a4f")

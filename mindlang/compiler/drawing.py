@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 from mindrun.kinds.registry import arguments, names
 
+from mindlang.compiler.families import said
 from mindlang.compiler.model import Mind
 from mindlang.compiler.syntax import Drives, Influences
 
@@ -90,5 +91,5 @@ def _quoted(text: str) -> str:
 
 
 def text_after_name(fact: Drives | Influences) -> str:
-    """The text of a line after the name of its target, as written."""
-    return fact.span.source.text[fact.name.span.end : fact.span.end]
+    """The text of a line after the name of its target, as written; of a member of a family with its own names."""
+    return said(fact)[fact.name.span.start - fact.span.start + len(said(fact.name)) :]

@@ -2,6 +2,7 @@
 
 A member is a declaration or a fact as any other; its names have the places of those in the line of the family. The
 letter stands for a number where it ends a name or a part of it: in `legN_hip` and `GoN`, not in `Nest` or `GoNow`.
+In `reading N of wanted` it is the number.
 """
 
 import re
@@ -65,7 +66,8 @@ def letter_in(name: str) -> str:
 
 def numbered(text: str, letter: str, number: int | str) -> str:
     """A text with a number, or another letter, in the place of the letter."""
-    return re.sub(rf"(?<=\w){letter}(?![A-Za-z0-9])", str(number), text)
+    before = r"(\w|\b(?:reading|observation|action|choice)\s+)"
+    return re.sub(rf"{before}{letter}(?![A-Za-z0-9])", rf"\g<1>{number}", text)
 
 
 def member(line: L, letter: str, number: int) -> L:
@@ -75,6 +77,8 @@ def member(line: L, letter: str, number: int) -> L:
         match node:
             case Name(text) if letter in text:
                 return replace(node, text=numbered(text, letter, number))
+            case Amount(name=name) if name == letter:
+                return replace(node, number=float(number), name="")
         return node
 
     found: L = rebuilt(line, changed)

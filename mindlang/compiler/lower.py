@@ -106,7 +106,7 @@ def _end(end: model.End, events: dict[Any, int], places: Places) -> graph.End:
     event = None if end.event is None else _index(end.event, events)
     if end.when is None:
         return graph.End(event, end.times, None, end.succeeds, opens=end.opens)
-    text = spaced(f"ends {said(end.when)}").removeprefix("ends when ")
+    text = spaced(f"ends {said(end.fact.when)}").removeprefix("ends when ")
     return graph.End(event, end.times, lower_condition(end.when, places), end.succeeds, text, end.opens)
 
 

@@ -275,7 +275,10 @@ def _declarations(rng: Random) -> list[list[str]]:
     if is_family := rng.random() < 0.3:
         above = next(block for block in blocks if block[0].startswith(f"skill {skills[0]} "))
         above += ["reads pulseN where N is 2 to 4", "influences StepK at 1/2 where K is 1 to 2"]
-        blocks += [["sensor pulseN is clock period 2 s where N is 1 to 4"], [STEPS, "reads pulseN", "drives mast"]]
+        blocks += [["sensor pulseN is clock period 2 s where N is 1 to 4"], ["sensor wish is order 1 to 3"]]
+        next(block for block in blocks if block[0].startswith("task ")).append("ends when pulseN > 1 where N is 1 to 2")
+        blocks += [["sensor wishN is reading N of wish where N is 1 to 3"]]
+        blocks += [[STEPS, "reads pulseN", "reads wishN", "drives mast"]]
     if learners:
         lessons = [
             f"teaches {skill} on {rng.choice(tasks)} {rng.choice(['for', 'until score > 3 for at most'])} "

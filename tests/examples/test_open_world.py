@@ -18,6 +18,8 @@ REACHED = {
     "road": ("Drive", ["score_mean"], 130.0),
     "soccer": ("Score", ["success", "mean"], 0.9),
     "sort": ("Sort", ["success", "mean"], 0.85),
+    "stations": ("Tour", ["success", "mean"], 0.9),
+    "tmaze": ("Run", ["success", "mean"], 0.95),
 }
 PICTURE_BYTES = 125_000
 

@@ -76,8 +76,8 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         """A word."""
         return Name(str(token), self._span(token))
 
-    TITLE = PART = WHOLE = TASK = COMPUTED = NUMBERED = SEVERAL = ORDERED = BROKEN = GYMNASIUM = ENVIRONMENT = NAME
-    FROM = TO = BY = ON = FACING = AT = NAME
+    TITLE = LETTER = PART = WHOLE = TASK = COMPUTED = NUMBERED = SEVERAL = ORDERED = BROKEN = NAME
+    GYMNASIUM = ENVIRONMENT = FROM = TO = BY = ON = FACING = AT = NAME
 
     def COMPARE(self, token: Token) -> str:  # noqa: N802
         """A sign between two values."""
@@ -114,9 +114,15 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         return {"phrase": Phrase(kind, (), kind.span), "at": at, "gate": gate}
 
     def numbered(self, meta: Any, parts: list[Any]) -> Phrase:
-        """The numbers go as an argument that is called as its kind; a name before them is that of a part."""
+        """The numbers go as an argument that is called as its kind; a name before them is that of a part.
+
+        A letter with no number behind it is that of a family.
+        """
         kind, *rest = parts
         part = [rest.pop(0)] if isinstance(rest[0], Name) else []
+        if part and not (rest and isinstance(rest[0], Amount)):
+            letter = part.pop()
+            rest.insert(0, Amount(1.0, "", letter.span, name=letter.text))
         which = tuple(each for each in rest if isinstance(each, Amount))
         span = Span(self.source, which[0].span.start, which[-1].span.end)
         first = Argument(kind, Numbers(which, span), Span(self.source, kind.span.start, span.end))
