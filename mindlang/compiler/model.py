@@ -214,6 +214,13 @@ def source_graph(sensors: Iterable[Part[Any] | Sensor]) -> DiGraph:
     return DiGraph({sensor.name: {source: {} for source in sensor.kind.sources} for sensor in sensors})
 
 
+def _lines_that_read(skill: Skill, skills: Mapping[str, Skill]) -> dict[str, Span]:
+    """The line that says each input: its own, or one of the skill that it is like, and that this one is like."""
+    header = skill.declaration.header
+    found = _lines_that_read(skills[header.like.text], skills) if header.like else {}
+    return found | {fact.name.text: fact.span for fact in syntax.of_form(skill.declaration.facts, syntax.Reads)}
+
+
 def hierarchy_graph(mind: Mind) -> DiGraph:
     """All parts of a mind, and what flows between them from the sensors to the actuators.
 
@@ -243,12 +250,7 @@ def hierarchy_graph(mind: Mind) -> DiGraph:
     skills = {skill.name: skill for skill in mind.skills}
     for skill in mind.skills:
         here = Node("skill", skill.name)
-        said, lines = skill.declaration, dict[str, Span]()
-        while True:  # its own lines, and those of the skills that it is like
-            lines = {fact.name.text: fact.span for fact in syntax.of_form(said.facts, syntax.Reads)} | lines
-            if not said.header.like:
-                break
-            said = skills[said.header.like.text].declaration
+        lines = _lines_that_read(skill, skills)
         for name in skill.reads:
             connect(read[name], here, "reads", lines[name])
         for edge in skill.edges:
