@@ -26,6 +26,7 @@ TOKENS = {
     "UNIT": "keyword.other.unit",
     "TEXT": "string.quoted.double",
     "ITS": FUNCTION,
+    "LETTER": PART,
     "ENVIRONMENT": "string.unquoted",
     **dict.fromkeys(("COMPUTED", "NUMBERED", "SEVERAL", "ORDERED", "BROKEN", "GYMNASIUM"), KIND),
     **dict.fromkeys(("FROM", "TO", "BY", "ON", "FACING", "AT"), KEY),
