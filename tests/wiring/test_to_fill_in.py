@@ -13,7 +13,7 @@ from mindlang.robot.wire import check_wiring
 from tests.calling import Call
 from tests.project.sources import ROOT
 
-MINDS = ["braitenberg", "collect/ball", "collect/power", "lander/lander", "light/light", "soccer/soccer"]
+MINDS = ["ball/ball", "braitenberg", "collect/ball", "collect/power", "lander/lander", "light/light", "soccer/soccer"]
 
 
 @pytest.mark.parametrize("name", MINDS)
