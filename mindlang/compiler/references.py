@@ -117,6 +117,8 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
         case syntax.Teaches(skill, task, master):
             yield from ((skill, ("skill",)), (task, ("task",)), *_if_any(master, "skill"))
             yield from _in_arguments(line.arguments, kinds("curriculum").values())
+            for need in (*line.needs, *([line.until] if line.until else [])):
+                yield from _in_phrase("event", need.event)
 
 
 def _in_output(line: syntax.Sends) -> Iterator[Named]:

@@ -350,16 +350,17 @@ class Counts(Struct, frozen=True):
 
 
 class Needs(Struct, frozen=True):
-    """`needs MEASURE > NUMBER` or `until MEASURE > NUMBER`, of a lesson."""
+    """`needs MEASURE > NUMBER` or `needs NUMBER EVENT`, of a lesson; `until` likewise."""
 
-    measure: Name
-    compare: str
+    measure: Name | None
+    compare: str | None
     above: Amount
+    event: Phrase | None
     span: Span
 
 
 class Teaches(Struct, frozen=True):
-    """`teaches SKILL on TASK [under MASTER] [until MEASURE > NUMBER] for [at most] GENERATIONS …`"""
+    """`teaches SKILL on TASK [under MASTER] [until NEED] for [at most] GENERATIONS …`"""
 
     skill: Name
     task: Name

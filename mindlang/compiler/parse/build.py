@@ -22,11 +22,12 @@ _FORMS: Mapping[str, type[Struct]] = {
     "uses": syntax.Uses,
     "requires": syntax.Requires, "maintains": syntax.Maintains, "achieves": syntax.Achieves,
     "contains": syntax.Contains, "varies": syntax.Varies, "fails": syntax.Fails, "lasts": syntax.Lasts,
-    "counts": syntax.Counts, "transmission": syntax.Transmits, "needs": syntax.Needs, "until": syntax.Needs,
+    "counts": syntax.Counts, "transmission": syntax.Transmits,
     "each": syntax.Each, "when": syntax.When, "comparison": syntax.Comparison, "argument": Argument,
     "setting": Argument, "origin": Argument, "family": syntax.Family,
 }  # fmt: skip
 _SENT = {"name": Name, "at": Expression, "gate": syntax.Gate, "stands_for": Name}
+_NEED = {"measure": Name, "compare": str, "above": Amount, "event": Phrase}
 _OUTCOME = {"times": Amount, "event": Phrase, "when": syntax.When}
 # Rules any of whose parts may be missing: which field a part is, its type says, and of two of one type their order.
 _FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, type]]] = {
@@ -36,6 +37,7 @@ _FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, type]]] = {
     "ends": (syntax.Ends, _OUTCOME),
     "succeeds": (syntax.Succeeds, _OUTCOME),
     "opens": (syntax.Opens, {"name": Name, **_OUTCOME}),
+    **dict.fromkeys(("needs", "often", "until"), (syntax.Needs, _NEED)),
     "stop": (syntax.Stop, {**_OUTCOME, "tick": syntax.Tick}),
     "rewards": (syntax.Rewards, {"amount": Expression, "on": Phrase, "each": syntax.Each, "when": syntax.When}),
 }
