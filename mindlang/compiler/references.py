@@ -158,6 +158,8 @@ def _in_arguments(written: Iterable[syntax.Argument], classes: Iterable[type[Any
         match value, wanted.get(key):
             case Name(), Noun(noun="thing"):
                 yield value, ("thing",)
+            case syntax.AnyName(names), Noun(noun="thing"):
+                yield from ((name, ("thing",)) for name in names)
             case Name(), Noun(noun="sensor"):
                 yield value, READABLE_NOUNS
             case Name(), Noun(noun="skill"):

@@ -236,6 +236,8 @@ def _range_words(line: CursorLine, last: Sequence[Any], end: int) -> Iterator[Of
                 yield Offer("to", "word")
             case syntax.Range(by=None) if said.meaning.shape == "list" or _has_schedule(said):
                 yield Offer("by", "word")
+    if said and said.noun == "sensor" and said.argument.span.end == end:
+        yield from words("or") if said.meaning and said.meaning.type == Reference("thing") else ()
 
 
 def _has_schedule(said: SaidArgument) -> bool:

@@ -93,6 +93,8 @@ CASES = [  # where the line is put, the line with | for the cursor, what must be
     (BELOW_QUICK, "  teaches Avoid on Work for 9 generations needs 3 |", "reach collision", "score"),
     (BELOW_QUICK, "  teaches Avoid on Work until 3 reach |", "of for", "population"),
     (BELOW_QUICK, "  teaches Avoid on Work until 3 reach of |", "parcel", "score"),
+    ("skill Avoid", "sensor any_way is bearing of parcel |", "or range", "and"),
+    ("skill Avoid", "sensor any_way is bearing of parcel or |", "depot", "eyes"),
     (BELOW_QUICK, "  teaches Avoid on Work until |", "score success", "reach"),
     (BELOW_QUICK, "  teaches Avoid on Work for 9 generations needs |", "score success", "reach"),
     (BELOW_AVOID, "  drives claw |", "at when", "cuts otherwise"),

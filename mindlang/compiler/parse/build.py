@@ -7,6 +7,7 @@ from typing import Any, cast
 from lark import Token, Tree, v_args
 from lark.visitors import Transformer_NonRecursive
 from msgspec import Struct
+from msgspec.structs import replace
 
 from mindlang.compiler import syntax
 from mindlang.compiler.source import Source, Span
@@ -175,9 +176,20 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     conjunction = over = condition
 
     def phrase(self, meta: Any, parts: list[Any]) -> Phrase:
-        return Phrase(parts[0], tuple(parts[1:]), self._span(meta))
+        """Names with `or` between become the value of one argument."""
+        found: list[Argument] = []
+        for part in parts[1:]:
+            before, options = found[-1].value if found else None, getattr(part.value, "options", ())
+            others = syntax.of_form(options, Name)
+            if isinstance(before, Name) and others and len(others) == len(options):
+                named, whole = (Span(self.source, of.span.start, part.span.end) for of in (before, found[-1]))
+                found[-1] = replace(found[-1], value=syntax.AnyName((before, *others), named), span=whole)
+            else:
+                found.append(part)
+        return Phrase(parts[0], tuple(found), self._span(meta))
 
-    call = phrase
+    def call(self, meta: Any, parts: list[Any]) -> Phrase:
+        return Phrase(parts[0], tuple(parts[1:]), self._span(meta))
 
     def numbers(self, meta: Any, parts: list[Any]) -> Numbers:
         return Numbers(tuple(parts), self._span(meta))

@@ -7,7 +7,7 @@ from math import prod
 
 from mindrun.graph.draws import MAX_VALUES
 from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task, varied_quantity
-from mindrun.graph.tasks import varied_kind
+from mindrun.graph.tasks import unfit_thing, varied_kind
 from mindrun.kinds.functions.procedure import is_inside
 from mindrun.kinds.registry import arguments
 from mindrun.kinds.sensors.sensor import directions
@@ -35,6 +35,8 @@ def _flaws(graph: Graph) -> Iterator[str]:
         yield from (f"skill {skill.name} {what}" for what in _skill_flaws(graph, number, skill, width))
     yield from _likeness_flaws(graph)
     for task in graph.tasks:
+        if any(unfit_thing(task.things, sensor.kind.things) for sensor in graph.sensors):
+            yield f"task {task.name} has things apart that a sensor is about"
         flaws = (*_task_flaws(task, width, len(graph.actuators)), *_variation_flaws(graph, task))
         yield from (f"task {task.name} {what}" for what in flaws)
     skills, tasks = {skill.name for skill in graph.skills}, {task.name: task.events for task in graph.tasks}
