@@ -272,8 +272,8 @@ def _declarations(rng: Random) -> list[list[str]]:
             *([re.sub(r" size 2(?! \d)", " size wide", line) for line in each] for each in blocks),
         ]
     if rng.random() < 0.4 and not any(block[0].startswith("scene ") for block in blocks):  # which would part them
-        group = r"(?<=(?: is eye|s inside|distance|is light) of )(nest|dock)\b"
-        blocks = [[re.sub(group, "nest or dock", block[0]), *block[1:]] for block in blocks]
+        alone = r"( (?:eye|inside|distance|light) of )(?:nest|dock)\b"
+        blocks = [[re.sub(alone, r"\1nest or dock", block[0]), *block[1:]] for block in blocks]
     learners = [skill for skill in skills if functions[skill].startswith(("mlp", "elman", "gru"))]
     if learners and rng.random() < 0.4:
         blocks.append(_like(rng, next(block for block in blocks if block[0].startswith(f"skill {learners[0]} "))))
