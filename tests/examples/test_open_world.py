@@ -16,9 +16,11 @@ REACHED = {
     "micromouse": ("Solve", ["success", "mean"], 0.85),
     "patrol": ("Guard", ["score_mean"], 190.0),
     "road": ("Drive", ["score_mean"], 130.0),
+    "shaping": ("Live", ["by_event", "reach of prey", "mean"], 5.0),
     "soccer": ("Score", ["success", "mean"], 0.9),
     "sort": ("Sort", ["success", "mean"], 0.85),
     "stations": ("Tour", ["success", "mean"], 0.9),
+    "sumo": ("Push", ["success", "mean"], 0.85),
     "tmaze": ("Run", ["success", "mean"], 0.95),
 }
 PICTURE_BYTES = 125_000

@@ -17,7 +17,8 @@ def test_any_source(tmp_path: Path, block: int) -> None:
         check(place, case, source(case))
 
 
-OPEN_WORLD = [EXAMPLES / name / f"{name}.mind" for name in ("sort", "soccer", "patrol", "maze", "line", "light")]
+NAMES = ("sort", "soccer", "patrol", "maze", "line", "light", "shaping", "sumo", "tmaze", "stations")
+OPEN_WORLD = [EXAMPLES / name / f"{name}.mind" for name in NAMES]
 
 
 @pytest.mark.parametrize("block", range(2))

@@ -65,6 +65,7 @@ sensor ahead is reading 1 of eye
 sensor wish is order 0 to 2
 sensor gaze is direction of mast
 sensor fear is range_finder at 0 deg range 3
+sensor unsafe is broken Grab
 memory mood is cell decay 0.9
 
 skill Go is mlp hidden 1
@@ -79,6 +80,7 @@ skill Go is mlp hidden 1
   drives light at pulse
 
 skill Grab is rule
+  maintains near < 90%
   reads near
   reads holding
   reads home
@@ -86,6 +88,7 @@ skill Grab is rule
   drives mood at 1/2
 
 skill Watch is rule
+  reads unsafe
   reads south
   reads image
   reads way

@@ -134,7 +134,7 @@ def test_the_arguments_of_a_kind_come_before_those_of_all() -> None:
     from mindrun.kinds.sensors.rays import RangeFinder
 
     keys = [argument.key for argument in arguments(RangeFinder)]
-    assert keys == ["at", "range", "dead_zone", "noise", "lost", "every", "delay"]
+    assert keys == ["at", "range", "dead_zone", "on", "noise", "lost", "every", "delay"]
 
 
 def test_nothing_else_has_changed(tmp_path: Path) -> None:

@@ -8,9 +8,9 @@ from mindrun.kinds.actuators.actuator import ActuatorKind
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.registry import kinds
 from mindrun.kinds.registry import names as kind_names
-from mindrun.kinds.sensors.broken import Broken
 from mindrun.kinds.sensors.computed import Computed
 from mindrun.kinds.sensors.sensor import directions
+from mindrun.numbers.quantity import SKILL
 from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
@@ -74,7 +74,7 @@ def sensors(names: Names, findings: Findings) -> Parts:
     for name, header in formulas.items():
         plain[name] = _computed(header, visible, findings)
     for name, sensor in plain.items():
-        if isinstance(sensor.kind, Broken):
+        if sensor.kind.named(SKILL):
             plain[name] = replace(sensor, kind=_broken(sensor, names, visible, findings))
     found = tuple(replace(plain[name], width=widths[name]) for name in names.of("sensor") if name in plain)
     for circle in circles(source_graph(found)):
@@ -86,7 +86,7 @@ def sensors(names: Names, findings: Findings) -> Parts:
         findings.error("too-many-readings", widest.span, message, f"A mind takes {MOST_READINGS}: leave some out.")
     kinds = {sensor.name: sensor.kind for sensor in found}
     around = directions(kinds)
-    for sensor in (each for each in found if each.name not in formulas and not isinstance(each.kind, Broken)):
+    for sensor in (each for each in found if each.name not in formulas and not each.kind.named(SKILL)):
         if flaw := sensor.kind.flaw(widths, around) or sensor.kind.misfit(kinds):
             header = names.table["sensor"][sensor.name].header
             arguments = header.phrase.arguments if header.phrase else ()
@@ -107,7 +107,7 @@ def _computed(header: Header, visible: Visible, findings: Findings) -> Part[Any]
     return Part(header.name.text, Computed(formula), header.name.span, at=at, gate=gate)
 
 
-def _broken(sensor: Part[Any], names: Names, visible: Visible, findings: Findings) -> Broken:
+def _broken(sensor: Part[Any], names: Names, visible: Visible, findings: Findings) -> Any:
     """The kind of a sensor that says when a skill breaks what it maintains, with that: all of its lines at once."""
     skill = names.table.get("skill", {}).get(sensor.kind.broken)
     lines = of_form(skill.facts, Maintains) if skill else ()
@@ -118,7 +118,7 @@ def _broken(sensor: Part[Any], names: Names, visible: Visible, findings: Finding
     formula: tuple[Any, ...] = ()
     for line in resolve_expressions(tuple(lines), visible, Findings()):  # mistakes are reported of the skill
         formula += (*line.formula, *[("and", 0)] * bool(formula))
-    return Broken(sensor.kind.broken, formula)
+    return type(sensor.kind)(sensor.kind.broken, formula)
 
 
 def _widths(sensors: Mapping[str, Part[Any]], of_one: Iterable[str]) -> dict[str, int]:

@@ -19,13 +19,7 @@ def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = 
     written = amount.unit or unit
     if amount.name:
         if amount.name not in findings.numbers:  # one that is declared wrongly has been reported there
-            hint = findings.suggest(amount.name, findings.numbers) or f"Declare it: number {amount.name} is 12."
-            if amount.name in findings.draws:
-                hint = f"{amount.name} is drawn for each run: it is a place, at +{amount.name} 5, or stands after when."
-            if amount.name.isupper():
-                hint = f"Write a number, or say which it stands for: where {amount.name} is 1 to 10."
-            message = f"There is no number called {amount.name}."
-            findings.error("unknown-number", amount.constant.span, message, hint)
+            _unknown_number(amount, findings)
         return None
     if amount.per and not (quantity.rate and amount.per in ("s", "tick")):
         _no_rate(amount, quantity, findings)
@@ -56,6 +50,15 @@ def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = 
         findings.error("out-of-range", amount.span, message, hint, *_labels(amount))
         return None
     return int(value) if quantity.whole else value
+
+
+def _unknown_number(amount: Amount, findings: Findings) -> None:
+    hint = findings.suggest(amount.name, findings.numbers) or f"Declare it: number {amount.name} is 12."
+    if amount.name in findings.draws:
+        hint = f"{amount.name} is drawn for each run: it is a place, at +{amount.name} 5, or stands after when."
+    if amount.name.isupper():
+        hint = f"Write a number, or say which it stands for: where {amount.name} is 1 to 10."
+    findings.error("unknown-number", amount.constant.span, f"There is no number called {amount.name}.", hint)
 
 
 def _wrong_unit(amount: Amount, quantity: Quantity, findings: Findings) -> None:
