@@ -99,7 +99,8 @@ def _rays(run: RecordedRun, what: str) -> dict[float, float]:
     return {
         round(degrees((angle + pi) % (2 * pi) - pi), 3): float(run.readings[-1, place]) * sensor.kind.reach
         for sensor in run.graph.sensors
-        if sensor.kind.thing in ("", what) and np.isfinite(run.readings[-1, sensor.start])  # else nobody reads it
+        if what in (sensor.kind.things or (what,))
+        and np.isfinite(run.readings[-1, sensor.start])  # else nobody reads it
         for place, angle in enumerate(sensor.kind.rays, sensor.start)
     }
 

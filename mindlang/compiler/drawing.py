@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-from mindrun.kinds.registry import arguments, names
+from mindrun.kinds.registry import phrase
 
 from mindlang.compiler.families import said
 from mindlang.compiler.model import Mind
@@ -50,13 +50,6 @@ def tree(mind: Mind) -> "Tree":
         below = [(branch, edge.target, text_after_name(edge.fact)) for edge in skill.edges if edge.to == "skill"]
         waiting += reversed(below)
     return root
-
-
-def phrase(kind: object) -> str:
-    """A kind with the arguments that differ from their defaults, much as it is written."""
-    said = ((argument, getattr(kind, argument.field)) for argument in arguments(type(kind)))
-    words = [f"{argument.key} {value}" for argument, value in said if value != argument.default]
-    return " ".join([names()[type(kind)], *words])
 
 
 def dot(mind: Mind) -> str:

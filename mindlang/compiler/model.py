@@ -177,6 +177,11 @@ class Task(Struct, frozen=True):
         """Where its name is declared."""
         return self.declaration.header.name.span
 
+    @property
+    def events(self) -> list[EventKind | None]:
+        """The events that end its runs, are rewarded or counted; None where a line has none."""
+        return [*(end.event for end in self.ends), *(reward.on for reward in self.rewards), *self.counts]
+
 
 @dataclass(frozen=True, slots=True)
 class Lesson(graph.Lesson):

@@ -114,9 +114,16 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
             yield from _in_expressions(amount, *syntax.expressions_in(when), own=own)
             yield from _in_phrase("event", on)
             yield from _if_any(each.sensor if each else None, *READABLE_NOUNS)
-        case syntax.Teaches(skill, task, master):
-            yield from ((skill, ("skill",)), (task, ("task",)), *_if_any(master, "skill"))
-            yield from _in_arguments(line.arguments, kinds("curriculum").values())
+        case syntax.Teaches():
+            yield from _in_lesson(line)
+
+
+def _in_lesson(line: syntax.Teaches) -> Iterator[Named]:
+    """The names in a lesson: who is taught on what under whom, with what learner, and what it needs to happen."""
+    yield from ((line.skill, ("skill",)), (line.task, ("task",)), *_if_any(line.master, "skill"))
+    yield from _in_arguments(line.arguments, kinds("curriculum").values())
+    for need in (*line.needs, *([line.until] if line.until else [])):
+        yield from _in_phrase("event", need.event)
 
 
 def _in_output(line: syntax.Sends) -> Iterator[Named]:
@@ -156,6 +163,8 @@ def _in_arguments(written: Iterable[syntax.Argument], classes: Iterable[type[Any
         match value, wanted.get(key):
             case Name(), Noun(noun="thing"):
                 yield value, ("thing",)
+            case syntax.AnyName(names), Noun(noun="thing"):
+                yield from ((name, ("thing",)) for name in names)
             case Name(), Noun(noun="sensor"):
                 yield value, READABLE_NOUNS
             case Name(), Noun(noun="skill"):

@@ -81,14 +81,21 @@ class Text(Struct, frozen=True):
     span: Span
 
 
-class Either(Struct, frozen=True):
-    """`or 10 0 or 0 10`: what may stand instead of the value before it; a range has one number on each side."""
+class AnyName(Struct, frozen=True):
+    """`person or car`: several names, of things that a sensor is about alike."""
 
-    options: tuple[Numbers | Range | Points, ...]
+    names: tuple[Name, ...]
     span: Span
 
 
-Value = Numbers | Range | Points | Name | Text | Either
+class Either(Struct, frozen=True):
+    """`or 10 0 or 0 10`: what may stand instead of the value before it; a range has one number on each side."""
+
+    options: tuple[Numbers | Range | Points | Name, ...]
+    span: Span
+
+
+Value = Numbers | Range | Points | Name | AnyName | Text | Either
 
 
 class Argument(Struct, frozen=True):
@@ -350,16 +357,17 @@ class Counts(Struct, frozen=True):
 
 
 class Needs(Struct, frozen=True):
-    """`needs MEASURE > NUMBER` or `until MEASURE > NUMBER`, of a lesson."""
+    """`needs MEASURE > NUMBER` or `needs NUMBER EVENT`, of a lesson; `until` likewise."""
 
-    measure: Name
-    compare: str
+    measure: Name | None
+    compare: str | None
     above: Amount
+    event: Phrase | None
     span: Span
 
 
 class Teaches(Struct, frozen=True):
-    """`teaches SKILL on TASK [under MASTER] [until MEASURE > NUMBER] for [at most] GENERATIONS …`"""
+    """`teaches SKILL on TASK [under MASTER] [until NEED] for [at most] GENERATIONS …`"""
 
     skill: Name
     task: Name

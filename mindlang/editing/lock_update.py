@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -20,6 +21,8 @@ from mindlang.lock.training_world import TrainingWorld
 
 if TYPE_CHECKING:
     from mindrun.numbers.arrays import Weights
+
+_OF_THING = re.compile(r"(?<= of | by | to )\w+")  # the things in "26.3 reach of ball"
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +89,7 @@ def _entry(entry: Entry, renaming: Renaming) -> Entry:
             task=called(taught.task, "task"),
             master=skill(taught.master),
             curriculum=called(taught.curriculum, "curriculum"),
+            happened=_OF_THING.sub(lambda found: called(found[0], "thing"), taught.happened),
         ),
         subskills=tuple(sorted((skill(name), weights) for name, weights in entry.subskills)),
         origin=entry.origin and (skill(entry.origin[0]), entry.origin[1]),

@@ -30,6 +30,7 @@ from mindrun.graph.graph import (
     Variation,
 )
 from mindrun.kinds.registry import arguments, names
+from mindrun.kinds.things.about import OR
 from mindrun.numbers.quantity import EXPRESSION, SENSOR, SERVO, SKILL, THING, Quantity, Reference
 
 from mindlang.compiler.names import Names
@@ -233,7 +234,7 @@ def _value(node: Any, field: Field[Any], name: Name) -> Any:
 def _argument(value: Any, meaning: Quantity | Reference | None, name: Name) -> Any:
     """An argument of a kind, of a graph or a fact, with other names."""
     if meaning == THING:
-        return name(value, "thing") if isinstance(value, str) else value
+        return OR.join(name(each, "thing") for each in value.split(OR)) if isinstance(value, str) else value
     if meaning == SENSOR:
         return name(value, *READABLE_NOUNS)
     if meaning == SKILL:

@@ -159,7 +159,7 @@ class Study:
     def senses(self) -> dict[str, str]:
         """The thing that each sensor is about; sensors about none or several are left out."""
         things = {
-            name: {self.sensors[root].thing for root in roots if root in self.sensors} - {""}
+            name: {thing for root in roots if root in self.sensors for thing in self.sensors[root].things}
             for name, roots in self.roots.items()
         }
         return {name: next(iter(about)) for name, about in things.items() if len(about) == 1}

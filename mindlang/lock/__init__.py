@@ -16,6 +16,8 @@ from mindrun.errors import MindError, system_errors_as
 from mindrun.files.atomic_write import write
 from mindrun.files.printable import visible
 from mindrun.files.regular_files import read_regular
+from mindrun.graph.graph import Need
+from mindrun.kinds.registry import phrase
 from mindrun.terminal.command_line import command_line
 from msgspec import ValidationError, convert
 
@@ -40,6 +42,7 @@ _LINE = re.compile(
     r" generations (?P<generations>[0-9]{1,19}) population (?P<population>[0-9]{1,19})"
     r" seed (?P<seed>[0-9]{1,19}) score (?P<score>-?[0-9]{1,400}(?:\.[0-9]{1,400})?(?:e[+-]?[0-9]{1,3})?)"
     r"(?: success (?P<success>[0-9]\.[0-9]{1,20}))?"
+    r"(?: happened (?P<happened>[0-9.]{1,30} [^|,]+?(?:, [0-9.]{1,30} [^|,]+?)*))?"
     r"(?: lesson (?P<number>[0-9]{1,9}) of (?P<curriculum>\S+))?"
     r"(?: \| with (?P<subskills>\S+:[0-9a-f]{64}(?: \S+:[0-9a-f]{64})*))?"
     r"(?: \| from (?P<origin>\S+:[0-9a-f]{64}))?"
@@ -67,7 +70,8 @@ class Taught:
     """The lesson that made a genome: where, `jointly` with its subskills or theirs, and after how many generations.
 
     It was lesson `number` of a curriculum; 0 and "" where the lock does not say. `success`
-    is the share of runs that succeeded, where its lesson needs some.
+    is the share of runs that succeeded, where its lesson needs some; `happened` says of events that it needs how often
+    each did in the mean of all runs: "26.3 reach of ball, 1.2 collision".
     """
 
     task: str
@@ -80,6 +84,14 @@ class Taught:
     number: int = 0
     curriculum: str = ""
     success: float | None = None
+    happened: str = ""
+
+    def reached(self, need: Need) -> float | None:
+        """The figure that a need is about; None where that was not measured."""
+        if not need.event:
+            return self.score if need.measure == "score" else self.success
+        often = (each.partition(" ") for each in self.happened.split(", "))
+        return next((float(times) for times, _, event in often if event == phrase(need.event)), None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,6 +132,7 @@ class Entry:
             f"generations {taught.generations} population {taught.population} "
             f"seed {taught.seed} score {taught.score!r}"
             f"{'' if taught.success is None else f' success {taught.success}'}"
+            f"{f' happened {taught.happened}' * bool(taught.happened)}"
             f"{f' lesson {taught.number} of {taught.curriculum}' * bool(taught.number)}",
         ]
         if self.subskills:

@@ -310,9 +310,8 @@ def _is_due(lesson: Lesson, earlier: Iterable[Lesson], state: Status) -> bool:
     if lesson in state.outdated:
         return True
     taught = key_of_taught(state.entry.taught)
-    reached = {"score": state.entry.taught.score, "success": state.entry.taught.success}
-    had = ((reached[need.measure], need.above) for need in lesson.needs)
-    if key_of(lesson) == taught and not all(value is not None and value > above for value, above in had):
+    had = ((need, state.entry.taught.reached(need)) for need in lesson.needs)
+    if key_of(lesson) == taught and not all(value is not None and need.is_met(value) for need, value in had):
         return True  # taught by less than it needs, or before it needed that
     if state.last and state.last.curriculum == lesson.curriculum:
         return state.last.number < lesson.number

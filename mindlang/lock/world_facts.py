@@ -19,11 +19,10 @@ from mindrun.graph.skill_sets import genes, reachable
 from mindrun.graph.tasks import physics
 from mindrun.kinds.environment import module_beside
 from mindrun.kinds.functions.procedure import module_source, used_file
-from mindrun.kinds.registry import arguments, kinds, later_fields, names
+from mindrun.kinds.registry import arguments, kinds, later_fields, names, phrase
 from mindrun.numbers.expression import TRUTHS, fold, leaves
 from mindrun.numbers.quantity import EXPRESSION, FARTHEST_UNITS, UNSAID, Quantity, Reference
 
-from mindlang.compiler.drawing import phrase
 from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.model import source_graph
 from mindlang.lock.training_world import LessonKey, TrainingWorld

@@ -9,11 +9,11 @@ import numpy as np
 from mindrun.graph.draws import drawn_numbers
 from mindrun.graph.graph import Task
 from mindrun.graph.run_scores import Scores, paid_by_text, score_of
+from mindrun.kinds.registry import phrase
 from mindrun.sim.codes import BROKEN_OFF, GOING_ON, LOST
 from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
 
-from mindlang.compiler.drawing import phrase
 from mindlang.number_format import finite
 from mindlang.run.paired_difference import unseen_share
 

@@ -55,7 +55,7 @@ MAX_ADDED = 12  # words with which a line is ended
 ENDINGS = {
     "RPAR": ")", "COMPARE": ">", "ON": "on", "FOR": "for", "TO": "to", "PER": "per", "TICK": "tick", "LEVEL": "above",
     "BELOW": "below", "IN": "in", "IS": "is", "LIKE": "like", "OF": "of", "INFLUENCES": "influences", "NUMBER": "1",
-    "NAME": "x", "TITLE": "X",
+    "NAME": "x", "TITLE": "X", "AT": "at", "MOST": "most",
 }  # fmt: skip
 TRIED = {"NAME": "tried", "TITLE": "Tried"}  # names that are put where the grammar takes one
 # Words that the grammar takes in more lines than they mean something in: those lines, and how the word is offered.
@@ -236,6 +236,8 @@ def _range_words(line: CursorLine, last: Sequence[Any], end: int) -> Iterator[Of
                 yield Offer("to", "word")
             case syntax.Range(by=None) if said.meaning.shape == "list" or _has_schedule(said):
                 yield Offer("by", "word")
+    if said and said.noun == "sensor" and said.argument.span.end == end:
+        yield from words("or") if said.meaning and said.meaning.type == Reference("thing") else ()
 
 
 def _has_schedule(said: SaidArgument) -> bool:
@@ -260,7 +262,8 @@ def _arguments(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
     said = said_argument(nodes, line.above)
     if said is None:
         return
-    is_lesson, written = isinstance(nodes[0], Teaches), {each.key.text for each in said.beside}
+    is_lesson = isinstance(nodes[0], Teaches) and said.noun == "curriculum"
+    written = {each.key.text for each in said.beside}
     match said.argument.key.text, said.meaning:
         case key, _ if said.argument.key is nodes[-1]:
             cls = kinds(said.noun).get(said.kind)
@@ -278,13 +281,20 @@ def _arguments(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
             yield from names(line.view, "sensor")
         case key, registry.Argument(type=Reference(noun="thing")):
             yield from words(*[ROBOT] * (said.noun == "content"))
-            yield from things(line.view, line.owner, about(said.noun, said.kind, key))
+            yield from things(line.view, _task(line, nodes[0]), about(said.noun, said.kind, key))
         case _, registry.Argument(type=Reference(noun="servo")):
             yield from names(line.view, "actuator")
         case _, registry.Argument(type=meaning) if meaning == FUNCTION:
             yield from (Offer(name, "function") for name in functions(line.folder))
         case _, registry.Argument(type=Reference(words=allowed)):
             yield from (Offer(word, "word") for word in allowed)
+
+
+def _task(line: CursorLine, fact: Any) -> Declaration | None:
+    """The task of whose things a line can speak, a lesson of those of its own; None for all."""
+    if isinstance(fact, Teaches):
+        return dict(line.view.whole.declarations("task")).get(fact.task.text)
+    return line.owner
 
 
 def _names(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:

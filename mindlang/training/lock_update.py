@@ -7,13 +7,14 @@ from math import isfinite
 import numpy as np
 from mindrun.graph.graph import Lesson
 from mindrun.graph.weights import owner_of, parts
+from mindrun.kinds.registry import phrase
 from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError
 from mindrun.train.attempt import VERDICT_LAYOUTS, has_needed, of_halves, verdict_layouts
 from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import Genomes
 from mindrun.train.run_folder import WEIGHTS, RunFolder, keep_failure
-from mindrun.train.scoring import Purpose, Scorer, Seeds, is_one_world, layouts, mark, succeeded
+from mindrun.train.scoring import Purpose, Scorer, Seeds, is_one_world, layouts, mark, measured
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import LockError, Taught, read_lock
@@ -119,10 +120,11 @@ def _refuse_failed(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
         return
     which = "its only attempt" if state.attempt == 1 else f"the best of {state.attempt} attempts"
     needed, reached = listed(map(str, lesson.needs), "and"), "scored " + " and ".join(map(short_score, state.verdict))
-    if any(need.measure == "success" for need in lesson.needs):
+    if others := [need for need in lesson.needs if need.measure != "score"]:
         tried = scorer.score(state.kept, verdict_layouts(run.manifest.seed, lesson.generations))
-        shares = of_halves(succeeded(scorer.task, tried))
-        reached += f", and succeeded in {shares[0]:.0%} and {shares[1]:.0%} of the runs"
+        for need, (one, other) in ((need, of_halves(measured(need, scorer.task, tried))) for need in others):
+            often = f"came to {one:g} and {other:g} {phrase(need.event)}" if need.event else ""
+            reached += f", and {often or f'succeeded in {one:.0%} and {other:.0%} of the runs'}"
     raise RunError(
         f"{lesson.skill} has failed its lesson, which needs {needed} on two sets of fresh layouts: {which} "
         f"{reached}; the lock stays as it is, and nothing is taught on top of it",
@@ -155,11 +157,18 @@ def compare_genomes(run: RunFolder, scorer: Scorer, genomes: Genomes) -> Weights
     return WeightsComparison(float(old), float(new))
 
 
-def needed_success(lesson: Lesson, scorer: Scorer, genome: Genomes, seeds: Seeds) -> float | None:
-    """The share of runs on these seeds in which a genome succeeds; None where its lesson does not need any."""
-    if not any(need.measure == "success" for need in lesson.needs):
-        return None
-    return float(succeeded(scorer.task, scorer.score(genome[None], seeds)).mean())
+def needed_figures(lesson: Lesson, scorer: Scorer, genome: Genomes, seeds: Seeds) -> tuple[float | None, str]:
+    """The share of runs on these seeds in which a genome succeeds, and how often events happen in their mean.
+
+    Each as a lock has it; None and "" where its lesson does not need any.
+    """
+    needs = [need for need in lesson.needs if need.measure != "score"]
+    if not needs:
+        return None, ""
+    results = scorer.score(genome[None], seeds)
+    reached = [(need.event, float(measured(need, scorer.task, results).mean())) for need in needs]
+    success = next((share for event, share in reached if not event), None)
+    return success, ", ".join(f"{times} {phrase(event)}" for event, times in reached if event)
 
 
 def _genome_there(run: RunFolder, subject: Subject) -> Genomes | None:
@@ -180,9 +189,9 @@ def _record(
 ) -> None:
     lesson, learners, seed = run.manifest.lesson, run.manifest.learners, run.manifest.seed
     asked = declared(subject, lesson)
-    success = needed_success(asked, scorer, genome, verdict_layouts(seed, lesson.generations)[VERDICT_LAYOUTS:])
+    needed = needed_figures(asked, scorer, genome, verdict_layouts(seed, lesson.generations)[VERDICT_LAYOUTS:])
     where, population = (lesson.task, lesson.master, lesson.with_subskills), lesson.learner.population
-    taught = Taught(*where, state.kept_after, population, seed, score, lesson.number, lesson.curriculum, success)
+    taught = Taught(*where, state.kept_after, population, seed, score, lesson.number, lesson.curriculum, *needed)
     begun_with = {
         skill: subject.lock[skill]
         for skill in learners

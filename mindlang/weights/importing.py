@@ -28,7 +28,7 @@ from mindlang.lock.blobs import digest, record
 from mindlang.lock.status import elsewhere_sentences, status, trained_weights
 from mindlang.lock.world_facts import Worlds
 from mindlang.training.lesson_choice import chosen_lessons
-from mindlang.training.lock_update import COMPARED_LAYOUTS, WeightsComparison, needed_success
+from mindlang.training.lock_update import COMPARED_LAYOUTS, WeightsComparison, needed_figures
 from mindlang.training.subject import Subject
 from mindlang.weights.network import SkillNetwork, genome_in, network_of, read_bytes
 from mindlang.whatif.request import recorded_readings
@@ -140,9 +140,9 @@ class Trial:
             raise RunError(why, f"look at the weights, and at the rewards of the task {self.lesson.task}")
         return float(scores[0]), None if old is None else WeightsComparison(float(scores[1]), float(scores[0]))
 
-    def success(self) -> float | None:
-        """The share of runs that succeed on these layouts; None where the lesson does not need any."""
-        return needed_success(self.lesson, self.rollout, self.genome, self._layouts)
+    def figures(self) -> tuple[float | None, str]:
+        """What else than a score the lesson needs, of runs on these layouts, as a lock has it."""
+        return needed_figures(self.lesson, self.rollout, self.genome, self._layouts)
 
     @property
     def _layouts(self) -> Seeds:
@@ -233,7 +233,7 @@ def _weights_there(trial: Trial) -> Weights | None:
 def _write(trial: Trial, score: float) -> tuple[str, ...]:
     """Write the line of the skill; a sentence for each skill that was taught with what was there before."""
     subject, lesson, name = trial.subject, trial.lesson, trial.network.skill.name
-    reached = score, lesson.number, lesson.curriculum, trial.success()
+    reached = score, lesson.number, lesson.curriculum, *trial.figures()
     record(
         subject.keep_path(lesson),
         subject.graph,

@@ -151,6 +151,8 @@ SPREADS = [
     ["fails left_wheel 1% per s", "fails claw 0.1% per tick"],
     ["fails mast 0.01"],
 ]
+NEEDS = ["score > 3", "2 reach of ball"]
+UNTIL = ["for", *(f"until {need} for at most" for need in NEEDS)]
 REWARDS = [
     ["rewards 10 on reach of ball"],
     ["rewards 0.01 * forward per tick"],
@@ -269,6 +271,9 @@ def _declarations(rng: Random) -> list[list[str]]:
             ["number wide is 2"],
             *([re.sub(r" size 2(?! \d)", " size wide", line) for line in each] for each in blocks),
         ]
+    if rng.random() < 0.4 and not any(block[0].startswith("scene ") for block in blocks):  # which would part them
+        alone = r"( (?:eye|inside|distance|light) of )(?:nest|dock)\b"
+        blocks = [[re.sub(alone, r"\1nest or dock", block[0]), *block[1:]] for block in blocks]
     learners = [skill for skill in skills if functions[skill].startswith(("mlp", "elman", "gru"))]
     if learners and rng.random() < 0.4:
         blocks.append(_like(rng, next(block for block in blocks if block[0].startswith(f"skill {learners[0]} "))))
@@ -281,8 +286,9 @@ def _declarations(rng: Random) -> list[list[str]]:
         blocks += [[STEPS, "reads pulseN", "reads wishN", "drives mast"]]
     if learners:
         lessons = [
-            f"teaches {skill} on {rng.choice(tasks)} {rng.choice(['for', 'until score > 3 for at most'])} "
-            f"{rng.randint(1, 9)} generations" + rng.choice(["", " from scratch"])
+            f"teaches {skill} on {rng.choice(tasks)} {rng.choice(UNTIL)} "
+            f"{rng.randint(1, 9)} generations{rng.choice(['', ' from scratch'])}"
+            + rng.choice(["", "", *(f" needs {each}" for each in NEEDS)])
             for skill in rng.sample(learners, rng.randint(0, len(learners)))
         ] + [f"teaches StepN on {rng.choice(tasks)} for 2 generations where N is 1 to 3"] * is_family
         learner = rng.choice(list(kinds("curriculum")))

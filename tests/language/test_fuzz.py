@@ -220,3 +220,7 @@ def test_mutants_of_one_shape_have_one_tree(chunk: int) -> None:
             at = rng.randrange(len(code) + 1)
             code = code[:at] + rng.choice([*ODD, *WORDS.split()]) + code[at + rng.randrange(3) :]
         same_as_lark(code)
+
+
+def test_what_is_broken_in_a_mind_without_skills_is_reported() -> None:
+    sane(compile_source(Source("fuzz.mind", "sensor east is broken No\n")))

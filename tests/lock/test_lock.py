@@ -27,8 +27,9 @@ ENTRIES = st.builds(
     ),
     HASHES,
     st.builds(
-        lambda place, success, *said: Taught(*said, *place, success),
+        lambda place, success, happened, *said: Taught(*said, *place, success, happened),
         *(PLACES, st.none() | st.integers(0, 50).map(lambda runs: runs / 50)),
+        st.sampled_from(["", "0.02 reach of ball", "12.5 visit patch 4.0, 3.0 leave of ring by foe"]),
         *(NAMES, NAMES, st.booleans(), COUNTS, COUNTS, COUNTS),
         st.floats(allow_nan=False, allow_infinity=False),
     ),

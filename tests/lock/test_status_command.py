@@ -69,7 +69,7 @@ def test_status_as_json_is_one_document(mindc: Call, drive: Path) -> None:
     assert rows["Drive"]["subskills"] == {"Avoid": lock["Avoid"].weights, "Go": lock["Go"].weights}
     assert rows["Go"]["taught"] == {
         "task": "Roam", "master": "Go", "jointly": False, "generations": 3, "population": 8, "seed": 1, "score": 1.5,
-        "number": 0, "curriculum": "", "success": None,
+        "number": 0, "curriculum": "", "success": None, "happened": "",
     }  # fmt: skip
 
 

@@ -22,6 +22,11 @@ class Results:
     faults: NDArray[np.int64]
     met: NDArray[np.int64]
 
+    @property
+    def by_event(self) -> NDArray[np.int64]:
+        """A genome that has got near has collided twice."""
+        return 2 * self.met[..., None]
+
 
 @dataclass(frozen=True, slots=True)
 class Sphere:

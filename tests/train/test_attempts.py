@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.graph.graph import Need
+from mindrun.kinds.events.event import Collision
 from mindrun.train.attempt import Segment, Stretch, advance
 from mindrun.train.attempts import Ahead, Attempts, Step, side_by_side
 from mindrun.train.checkpoint import pack
@@ -31,7 +32,9 @@ COURSES = st.builds(
     patience=st.sampled_from((0, 0, 1, 3, 5)),
     population=st.just(5),
     needs=st.lists(
-        st.builds(Need, st.just("score"), st.floats(-60.0, 0.0)) | st.builds(Need, st.just("success"), st.floats(0, 1)),
+        st.builds(Need, st.just("score"), st.floats(-60.0, 0.0))
+        | st.builds(Need, st.just("success"), st.floats(0, 1))
+        | st.builds(Need, st.just("event"), st.floats(0, 2), st.just(Collision())),
         max_size=2,
     ).map(tuple),
 )

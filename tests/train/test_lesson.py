@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.graph.graph import Need
+from mindrun.kinds.events.event import Collision
 from mindrun.train.attempt import (
     REEVALUATED_CANDIDATES,
     REEVALUATION_GENERATIONS,
@@ -83,7 +84,11 @@ def test_the_reevaluated_score_is_not_the_biased_maximum() -> None:
     assert state.best > state.reevaluated
 
 
-@pytest.mark.parametrize("needs", [(Need("score", -20.0),), (Need("success", 0.2),), (Need("score", 1.0),)], ids=str)
+@pytest.mark.parametrize(
+    "needs",
+    [(Need("score", -20.0),), (Need("success", 0.2),), (Need("score", 1.0),), (Need("event", 0.4, Collision()),)],
+    ids=str,
+)
 def test_attempts_end_with_the_first_that_does_all_that_the_lesson_needs(needs: tuple[Need, ...]) -> None:
     """It is met on both halves of the layouts; each attempt is judged as if it were alone."""
     course, scorer = Course(lesson(8, needs, attempts=9), 2, UNKNOWN), Sphere(noise=9.0)
@@ -92,10 +97,12 @@ def test_attempts_end_with_the_first_that_does_all_that_the_lesson_needs(needs: 
     seeds = layouts(2, 0, 8, 2 * VERDICT_LAYOUTS, Purpose.VERDICT)
     measured = [scorer.score(champion[None], seeds) for champion in everybody.champions]
     halves = [
-        (each.total if needs[0].measure == "score" else each.met == 1)[0].reshape(2, VERDICT_LAYOUTS).mean(axis=1)
+        (each.total if needs[0].measure == "score" else (1 + (needs[0].measure == "event")) * each.met)[0]
+        .reshape(2, VERDICT_LAYOUTS)
+        .mean(axis=1)
         for each in measured
     ]
-    passed = [bool((each > needs[0].above).all()) for each in halves]
+    passed = [all(map(needs[0].is_met, each)) for each in halves]
     count = passed.index(True) + 1 if True in passed else 9
     assert state.passed.tolist() == passed[:count]
     kept = count - 1 if True in passed else int(everybody.verdicts[:, 0].argmax())

@@ -7,6 +7,7 @@ from typing import Any, cast
 from lark import Token, Tree, v_args
 from lark.visitors import Transformer_NonRecursive
 from msgspec import Struct
+from msgspec.structs import replace
 
 from mindlang.compiler import syntax
 from mindlang.compiler.source import Source, Span
@@ -22,11 +23,12 @@ _FORMS: Mapping[str, type[Struct]] = {
     "uses": syntax.Uses,
     "requires": syntax.Requires, "maintains": syntax.Maintains, "achieves": syntax.Achieves,
     "contains": syntax.Contains, "varies": syntax.Varies, "fails": syntax.Fails, "lasts": syntax.Lasts,
-    "counts": syntax.Counts, "transmission": syntax.Transmits, "needs": syntax.Needs, "until": syntax.Needs,
+    "counts": syntax.Counts, "transmission": syntax.Transmits,
     "each": syntax.Each, "when": syntax.When, "comparison": syntax.Comparison, "argument": Argument,
     "setting": Argument, "origin": Argument, "family": syntax.Family,
 }  # fmt: skip
 _SENT = {"name": Name, "at": Expression, "gate": syntax.Gate, "stands_for": Name}
+_NEED = {"measure": Name, "compare": str, "above": Amount, "event": Phrase}
 _OUTCOME = {"times": Amount, "event": Phrase, "when": syntax.When}
 # Rules any of whose parts may be missing: which field a part is, its type says, and of two of one type their order.
 _FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, type]]] = {
@@ -36,6 +38,7 @@ _FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, type]]] = {
     "ends": (syntax.Ends, _OUTCOME),
     "succeeds": (syntax.Succeeds, _OUTCOME),
     "opens": (syntax.Opens, {"name": Name, **_OUTCOME}),
+    **dict.fromkeys(("needs", "often", "until"), (syntax.Needs, _NEED)),
     "stop": (syntax.Stop, {**_OUTCOME, "tick": syntax.Tick}),
     "rewards": (syntax.Rewards, {"amount": Expression, "on": Phrase, "each": syntax.Each, "when": syntax.When}),
 }
@@ -173,9 +176,20 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     conjunction = over = condition
 
     def phrase(self, meta: Any, parts: list[Any]) -> Phrase:
-        return Phrase(parts[0], tuple(parts[1:]), self._span(meta))
+        """Names with `or` between become the value of one argument."""
+        found: list[Argument] = []
+        for part in parts[1:]:
+            before, options = found[-1].value if found else None, getattr(part.value, "options", ())
+            others = syntax.of_form(options, Name)
+            if isinstance(before, Name) and others and len(others) == len(options):
+                named, whole = (Span(self.source, of.span.start, part.span.end) for of in (before, found[-1]))
+                found[-1] = replace(found[-1], value=syntax.AnyName((before, *others), named), span=whole)
+            else:
+                found.append(part)
+        return Phrase(parts[0], tuple(found), self._span(meta))
 
-    call = phrase
+    def call(self, meta: Any, parts: list[Any]) -> Phrase:
+        return Phrase(parts[0], tuple(parts[1:]), self._span(meta))
 
     def numbers(self, meta: Any, parts: list[Any]) -> Numbers:
         return Numbers(tuple(parts), self._span(meta))

@@ -458,8 +458,9 @@ MISTAKES = (
     Mistake("with-subskills", r"^\s*teaches\b.*?\s(?P<here>(?<!with )subskills|with\s*$)",
         "A lesson teaches one skill or, with subskills, all that learn below it together with it.",
         "Write with subskills.", "teaches Seek on Seek for 10 generations subskills"),
-    Mistake("needs-more", r"^\s*teaches\b.*?\s(?P<here>needs\b(?!\s+[a-z]\w*\s*[<>]=?\s*[-+\w]).*)$",
-        "A lesson needs more than a number of what is measured.", "Write needs score > 300, or needs success > 50%.",
+    Mistake("needs-more", r"^\s*teaches\b.*?\s(?P<here>needs\b(?!\s+[a-z]\w*\s*[<>]=?\s*[-+\w]|\s+\d\S*\s+[a-z]).*)$",
+        "A lesson needs more than a number of what is measured.",
+        "Write needs score > 300, needs success > 50%, or needs 25 reach of ball.",
         "teaches Seek on Seek for 10 generations needs 300"),
     # Rewards.
     Mistake("missing-amount", r"^\s*rewards\s+(?P<here>on\s.*|per\s.*)$", "A reward says how much.",

@@ -1,23 +1,24 @@
 """Curricula: who is taught what, under which master, for how long, and with whose weights a lesson begins."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, cast
 
 from mindrun.graph.graph import Need
 from mindrun.kinds.functions.function import Function
-from mindrun.kinds.registry import kinds
+from mindrun.kinds.registry import arguments, kinds, phrase
 from mindrun.numbers.quantity import GENERATIONS, NUMBER, RATIO, Quantity
 from networkx import DiGraph
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, listed
+from mindlang.compiler.families import said
 from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.kinds import Scope, a_name, make_kind, once, overrides
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.syntax import Argument, Name, Needs, Phrase, Teaches, of_form
+from mindlang.compiler.syntax import Amount, Argument, Name, Needs, Phrase, Teaches, of_form
 
 if TYPE_CHECKING:
     from mindrun.numbers.arrays import Layers
@@ -29,6 +30,7 @@ SWITCHES = {
     "with": ("subskills", "A lesson teaches one skill or, with subskills, all that learn below it together with it."),
 }
 MEASURED: Mapping[Any, Quantity] = {"score": NUMBER, "success": RATIO}  # what a lesson can need
+OFTEN = Quantity("how often in the mean of all runs", {"": 1.0}, low=1e-3, high=1e9)
 USING = "using"  # a kind of learner other than the curriculum's
 
 
@@ -41,8 +43,8 @@ def lessons(
     findings: Findings,
 ) -> Iterator[model.Lesson]:
     """Every lesson of every curriculum that is well said; those that others wait for come first."""
-    hopeless = {each.name for each in tasks if each.declaration.whole and not any(end.succeeds for end in each.ends)}
-    context = _LessonContext(names, {skill.name: skill for skill in skills}, influences, hopeless, widths, findings)
+    known = {skill.name: skill for skill in skills}, influences, {task.name: task for task in tasks}
+    context = _LessonContext(names, *known, widths, findings)
     for name, declaration in names.declarations("curriculum"):
         refuse_facts(declaration, ("teaches",), findings)
         phrase = declaration.header.phrase
@@ -56,12 +58,12 @@ def lessons(
 
 @dataclass(frozen=True, slots=True)
 class _LessonContext:
-    """The parts of a mind that lessons are checked against. `hopeless` are the tasks that say no success."""
+    """The parts of a mind that lessons are checked against."""
 
     names: Names
     skills: Mapping[str, model.Skill]
     influences: DiGraph
-    hopeless: Set[str]
+    tasks: Mapping[str, model.Task]
     widths: Mapping[str, int]
     findings: Findings
 
@@ -166,17 +168,23 @@ class _LessonContext:
 
     def _needs(self, fact: Teaches) -> tuple[Need, ...]:
         """The needs of a lesson; a measure that is said again is reported."""
-        for measure in MEASURED:
-            said = [need.span for need in fact.needs if need.measure.text == measure]
-            message = f"What {measure} is needed is said already."
-            self.findings.refuse_again("repeated-fact", said, message, "Say it once.")
-        return tuple(filter(None, (self._need(need, fact.task.text) for need in fact.needs)))
+        needs = [(need.span, self._need(need, fact.task.text)) for need in fact.needs]
+        for which in {(need.measure, need.event): None for _, need in needs if need}:
+            said = [span for span, need in needs if need and (need.measure, need.event) == which]
+            what = f"How often {phrase(which[1])}" if which[1] else f"What {which[0]}"
+            self.findings.refuse_again("repeated-fact", said, f"{what} is needed is said already.", "Say it once.")
+        return tuple(need for _, need in needs if need)
 
     def _need(self, need: Needs, task: str, word: str = "needs") -> Need | None:
         """What a lesson on a task needs, or goes on until; None after reporting what is wrong with it."""
+        if need.event:
+            return self._event_need(need.event, need.above, task, word)
+        assert need.measure
         before, (measure, span) = len(self.findings.diagnostics), (need.measure.text, need.measure.span)
         if measure not in MEASURED:
             hint = self.findings.suggest(measure, MEASURED) or f"Write {word} score > 300, or {word} success > 50%."
+            if measure in kinds("event"):
+                hint = f"Write how often it has to happen, and with what: {word} 25 {measure} …."
             message = f"A lesson cannot {'need' if word == 'needs' else 'go on until'} {measure}."
             self.findings.error("unknown-need", span, message, hint)
             return None
@@ -184,7 +192,7 @@ class _LessonContext:
         if need.compare != ">":
             message = f"After {word} {measure} stands > and a number: the greater {measure} is, the better."
             self.findings.error("needs-more", need.span, message, f"Write {word} {measure} > {need.above.span.text}.")
-        if measure == "success" and task in self.hopeless:
+        if measure == "success" and self._lacks(task, lambda its: any(end.succeeds for end in its.ends)):
             hint = f"Add a line to it: succeeds on 5 delivery of red; or write {word} score > 300."
             self.findings.error("needs-success", need.span, f"{task} does not say what a success is.", hint)
         if measure == "success" and above is not None and above >= 1:
@@ -193,6 +201,27 @@ class _LessonContext:
         if above is None or len(self.findings.diagnostics) > before:
             return None
         return Need(cast(Any, measure), above)
+
+    def _event_need(self, written: Phrase, above: Amount, task: str, word: str) -> Need | None:
+        """How often an event of its task has to happen in a lesson; None after reporting what is wrong with it."""
+        before, learners = len(self.findings.diagnostics), kinds("curriculum").values()
+        of_lessons = {*SWITCHES, USING, *(each.key for learner in learners for each in arguments(learner))}
+        for argument in (each for each in written.arguments if each.key.text in of_lessons):
+            place = "before needs" if word == "needs" else "behind the generations"
+            message = f"{argument.key.text} is no part of an event, and stands elsewhere in a lesson."
+            self.findings.error("order", argument.span, message, f"Write {said(argument)} {place}.")
+            return None
+        event = make_kind("event", written, Scope(self.names, None), self.findings)
+        times = convert(above, OFTEN, self.findings)
+        if event and self._lacks(task, lambda its: event in its.events):
+            hint = f"Add a line to it: counts {said(written)}."
+            self.findings.error("needs-count", written.span, f"{task} does not count {said(written)}.", hint)
+        return Need("event", times, event) if times and len(self.findings.diagnostics) == before else None
+
+    def _lacks(self, task: str, says: Callable[[model.Task], bool]) -> bool:
+        """True if a task that could be read as a whole does not say something."""
+        known = self.tasks.get(task)
+        return known is not None and known.declaration.whole and not says(known)
 
     def _check_learns(self, fact: Teaches, with_subskills: bool) -> None:
         """Report a lesson in which nobody learns, or a skill that has no weights of its own."""

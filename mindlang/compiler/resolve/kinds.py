@@ -7,15 +7,15 @@ from typing import Any
 
 from mindrun.kinds.registry import Argument as Parameter
 from mindrun.kinds.registry import arguments, find_kind, kinds
-from mindrun.kinds.things.about import AboutThing
+from mindrun.kinds.things.about import OR, AboutThing
 from mindrun.kinds.things.thing import ROBOT, WITHIN
-from mindrun.numbers.quantity import COORDINATE, SLOT, Quantity, Reference
+from mindrun.numbers.quantity import COORDINATE, SLOT, THING, Quantity, Reference
 
 from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.maps import text_lines
 from mindlang.compiler.resolve.quantities import SHAPES, place_list
-from mindlang.compiler.syntax import VERBS, Argument, Name, Phrase
+from mindlang.compiler.syntax import VERBS, AnyName, Argument, Name, Phrase
 
 USER_NOUNS = {"content": "thing", "task": "scene"}  # nouns of the registry in the user's words
 MISSING_HINTS = {
@@ -105,6 +105,8 @@ def a_name(argument: Argument, hint: str, findings: Findings) -> Name | None:
     if isinstance(argument.value, Name):
         return argument.value
     message = f"A number cannot stand after {argument.key.text}."
+    if isinstance(argument.value, AnyName):
+        message = f"Only one name can stand after {argument.key.text}."
     findings.error("not-a-name", argument.value.span, message, hint)
     return None
 
@@ -129,6 +131,8 @@ def _value(
         return corners and tuple(zip(*(sorted(along) for along in zip(*corners, strict=True)), strict=True))
     if not isinstance(parameter.type, Reference):
         return _number(parameter, argument, findings)
+    if isinstance(argument.value, AnyName) and noun == "sensor" and parameter.type == THING:
+        return _things(argument.value.names, phrase.kind.text, parameter.key, scope, findings)
     name = a_name(argument, f"Here stands the name of a {parameter.type.noun}.", findings)
     if name is None:
         return None
@@ -151,6 +155,16 @@ def _value(
             hint = did_you_mean(name.text, known) or f"It is {listed(known)}."
             findings.error(f"unknown-{noun_}", name.span, f"There is no {noun_} called {name.text}.", hint)
     return name.text
+
+
+def _things(names: Sequence[Name], kind: str, key: str, scope: Scope, findings: Findings) -> str:
+    """The things that a sensor is about alike, each said once."""
+    for place, name in enumerate(names):
+        if name.text in {each.text for each in names[:place]}:
+            findings.error("repeated-argument", name.span, f"{name.text} is said twice.", "Leave one out.")
+        else:
+            _check_thing(name, "sensor", kind, key, scope, findings)
+    return OR.join(name.text for name in names)
 
 
 def _check_servo(name: Name, names: Names, findings: Findings) -> None:

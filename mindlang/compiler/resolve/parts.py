@@ -109,7 +109,7 @@ def _computed(header: Header, visible: Visible, findings: Findings) -> Part[Any]
 
 def _broken(sensor: Part[Any], names: Names, visible: Visible, findings: Findings) -> Any:
     """The kind of a sensor that says when a skill breaks what it maintains, with that: all of its lines at once."""
-    skill = names.table["skill"].get(sensor.kind.broken)
+    skill = names.table.get("skill", {}).get(sensor.kind.broken)
     lines = of_form(skill.facts, Maintains) if skill else ()
     if skill and skill.whole and not lines:
         message = f"{sensor.kind.broken} maintains nothing that could be broken."

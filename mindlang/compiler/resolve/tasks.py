@@ -4,12 +4,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
+from mindrun.graph.tasks import unfit_thing
 from mindrun.kinds.registry import names
 from mindrun.numbers.quantity import SECONDS, TICKS, Quantity
 
 from mindlang.compiler import model
 from mindlang.compiler.beginning import first_tick_hint, task_beginning
-from mindlang.compiler.diagnostic import Findings, Label, a
+from mindlang.compiler.diagnostic import Findings, Label, a, listed
 from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import make_kind
 from mindlang.compiler.resolve.parts import refuse_facts, said_once
@@ -45,6 +46,7 @@ def _task(declaration: Declaration, robot: RobotFacts, findings: Findings) -> mo
     visible = Visible(robot.widths, world.scope, unread=robot.names.unread, commands=commands, draws=world.drawn)
     ends = _ends(declaration, world, visible, findings)
     _check_decided(ends, world, robot, findings)
+    _check_groups(world, robot, findings)
     return model.Task(
         declaration.header.name.text,
         world.scene,
@@ -130,6 +132,21 @@ def _check_decided(ends: Sequence[model.End], world: ResolvedWorld, robot: Robot
             there = (Label(each.span, "this one") for each in world.things if each.name == end.event.thing)
             message = "This ends every run in its first tick."
             findings.error("decided-start", end.fact.span, message, first_tick_hint(end.event), *there)
+
+
+def _check_groups(world: ResolvedWorld, robot: RobotFacts, findings: Findings) -> None:
+    """Report a sensor about several things that are not side by side in a task, or are in its way."""
+    for sensor in (each for each in robot.sensors if each.kind):
+        if thing := unfit_thing(world.things, sensor.kind.things):
+            names, there = listed(sensor.kind.things, "and"), Label(sensor.span, "this one")
+            if thing.name in sensor.kind.things:
+                message = f"Of the things that {sensor.name} is about, {thing.name} is an obstacle."
+                hint = f"Leave it out of {sensor.name}, and write another sensor for it."
+            else:
+                message = f"{thing.name} stands between {names}, which {sensor.name} is about."
+                hint = f"Write the lines of {names} one after the other."
+            findings.error("things-apart", thing.span, message, hint, there)
+            return  # what stands apart does so for all of them
 
 
 def _reward(

@@ -11,7 +11,7 @@ from mindrun.kinds.functions.function import Function
 from mindrun.kinds.learners import Learner
 from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.kinds.memory import Cell
-from mindrun.kinds.registry import arguments, left_out
+from mindrun.kinds.registry import arguments, left_out, phrase
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.kinds.things.thing import ThingKind
@@ -251,13 +251,23 @@ class Task:
 
 @dataclass(frozen=True, slots=True)
 class Need:
-    """A need of a lesson, or its end, on fresh layouts: a mean `score` or a share of `success` `above` a number."""
+    """A need of a lesson, or its end, on fresh layouts: a mean `score` or a share of `success` `above` a number.
 
-    measure: Literal["score", "success"]
+    Or that an `event` of its task happens at least so often in the mean of all runs.
+    """
+
+    measure: Literal["score", "success", "event"]
     above: float
+    event: EventKind | None = left_out(None)
+
+    def is_met(self, reached: float) -> bool:
+        """True if so much is enough."""
+        return reached >= self.above if self.event else reached > self.above
 
     def __str__(self) -> str:
         """The need in the words of the language."""
+        if self.event:
+            return f"{self.above:g} {phrase(self.event)}"
         return f"{self.measure} > " + (f"{100 * self.above:g}%" if self.measure == "success" else f"{self.above:g}")
 
 
@@ -284,6 +294,11 @@ class Lesson:
     starts_from: str = ""
     needs: tuple[Need, ...] = ()
     until: Need | None = left_out(None)
+
+    @property
+    def all_needs(self) -> tuple[Need, ...]:
+        """What it needs, and what it goes on until."""
+        return (*self.needs, *([self.until] if self.until else []))
 
     @property
     def name(self) -> str:

@@ -1,6 +1,8 @@
 """Tasks before a run: which one is run, its goals, whether anything is drawn, and the physics of its world."""
 
+from collections.abc import Collection, Sequence
 from importlib.metadata import PackageNotFoundError, version
+from itertools import chain
 from typing import Any
 
 from mindrun.graph.graph import Graph, Task, Variation
@@ -62,7 +64,21 @@ def goals(graph: Graph, task: Task) -> frozenset[str]:
     events = (task.events[end.event] for end in task.ends if end.event is not None)
     reached = {event.thing for event in events if event.outcome == "reached"}
     read = {row for end in task.ends if end.when is not None for row in leaves(end.when, "reading")}
-    return frozenset(gone | reached | {sensor.kind.thing for sensor in with_sources(graph, read)})
+    return frozenset(gone | reached | {thing for sensor in with_sources(graph, read) for thing in sensor.kind.things})
+
+
+def unfit_thing(things: Sequence[Any], names: Collection[str]) -> Any:
+    """The thing for which a sensor cannot be about all of these names in a world of `things`; None where it can.
+
+    It is an obstacle of one of them, or one that is said between those which have them.
+    """
+    if len(names) == 1:
+        return None
+    loose = [thing for thing in things if not (thing.kind and thing.kind.is_obstacle)]
+    places = [place for place, thing in enumerate(loose) if thing.name in names]
+    between = loose[places[0] : places[-1]] if places else []
+    fixed = (thing for thing in things if thing not in loose and thing.name in names)
+    return next(chain(fixed, (thing for thing in between if thing.name not in names)), None)
 
 
 def varied_kind(graph: Graph, task: Task, variation: Variation) -> Any:

@@ -7,7 +7,7 @@ from math import prod
 
 from mindrun.graph.draws import MAX_VALUES
 from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task, varied_quantity
-from mindrun.graph.tasks import varied_kind
+from mindrun.graph.tasks import unfit_thing, varied_kind
 from mindrun.kinds.functions.procedure import is_inside
 from mindrun.kinds.registry import arguments
 from mindrun.kinds.sensors.sensor import directions
@@ -35,13 +35,16 @@ def _flaws(graph: Graph) -> Iterator[str]:
         yield from (f"skill {skill.name} {what}" for what in _skill_flaws(graph, number, skill, width))
     yield from _likeness_flaws(graph)
     for task in graph.tasks:
+        if any(unfit_thing(task.things, sensor.kind.things) for sensor in graph.sensors):
+            yield f"task {task.name} has things apart that a sensor is about"
         flaws = (*_task_flaws(task, width, len(graph.actuators)), *_variation_flaws(graph, task))
         yield from (f"task {task.name} {what}" for what in flaws)
-    skills, tasks = {skill.name for skill in graph.skills}, {task.name for task in graph.tasks}
+    skills, tasks = {skill.name for skill in graph.skills}, {task.name: task.events for task in graph.tasks}
     for lesson in graph.lessons:
         yield from lesson_flaws(lesson)
         named = {lesson.skill, lesson.master, lesson.starts_from or lesson.skill}
-        if not (named <= skills and lesson.task in tasks):
+        events = {None, *tasks.get(lesson.task, ())}
+        if not (named <= skills and lesson.task in tasks and {need.event for need in lesson.all_needs} <= events):
             yield f"the lesson of {lesson.skill} names what is not there"
 
 
@@ -63,6 +66,8 @@ def lesson_flaws(lesson: Lesson) -> Iterator[str]:
     for name in named:
         if not NAME.fullmatch(name):
             yield f"a lesson cannot name {name!r:.60}"
+    if any((need.measure == "event") != bool(need.event) for need in lesson.all_needs):
+        yield f"the lesson of {lesson.skill} needs what is not said"
     if lesson.generations < 1:
         yield f"the lesson of {lesson.skill} has no generation"
 

@@ -136,6 +136,13 @@ def named_arguments(cls: type[Any]) -> tuple[Argument, ...]:
     return tuple(each for each in arguments(cls) if each.key != _names[cls] and each.type != SLOT)
 
 
+def phrase(kind: object) -> str:
+    """A kind with the arguments that differ from their defaults, much as it is written."""
+    said = ((argument, getattr(kind, argument.field)) for argument in arguments(type(kind)))
+    words = [f"{argument.key} {value}" for argument, value in said if value != argument.default]
+    return " ".join([names()[type(kind)], *words])
+
+
 def _type(hint: Any) -> tuple[Quantity | Reference, Shape]:
     if get_origin(hint) is not Annotated:
         raise TypeError(f"{hint} does not say what an argument means")

@@ -168,6 +168,9 @@ def inside(things: Any, i: Any, x: Any, y: Any, p: Any) -> Any:
     return (abs(its_x - x) <= half) & (abs(its_y - y) <= half)
 
 
+MOST_ROWS = 1 << 20  # more than a task has of things
+
+
 def nearest(s: Any, sensor: Any, n: Any) -> Any:
     """The rows [THING_ROWS, lane] of the thing that a sensor speaks of: of several, in each lane the nearest one.
 
@@ -179,10 +182,10 @@ def nearest(s: Any, sensor: Any, n: Any) -> Any:
         return s.nearest
     if sensor.things == 1:
         return s.things[THING_ROWS * sensor.thing : THING_ROWS * (sensor.thing + 1)]
-    found = s.nearest
-    if s.nearest_of[0] == sensor.thing:
+    found, asked = s.nearest, MOST_ROWS * sensor.things + sensor.thing
+    if s.nearest_of[0] == asked:
         return found
-    s.nearest_of[0] = sensor.thing
+    s.nearest_of[0] = asked
     for p in range(n):  # lane by lane: in numbers, not in rows
         x, y = place_of(s.things, sensor.thing, p)
         size, far = size_of(s.things, sensor.thing, p), distance_of(s.things, sensor.thing, p)

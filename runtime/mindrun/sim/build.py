@@ -86,7 +86,7 @@ def sensor_rows(
     rays, ray_row, passes, numbers = list[float](), list[int](), list[tuple[int, int]](), list[float]()
     for sensor in used + aside + exact:
         kind, roughness = sensor.kind, {} if sensor in exact else _roughness(sensor, parameters)
-        about, solid = things.get(kind.thing, NOWHERE), boxes.get(kind.thing, NOWHERE)
+        about, solid = _all_of(kind.things, things), _all_of(kind.things, boxes)
         code, length = programs.add(placed(kind.formula, scene.starts))
         rows.append({
             "lane": sensor_unit(kind).place, "start": sensor.start, "width": sensor.width,
@@ -114,6 +114,12 @@ def sensor_rows(
         "numbers": np.array(numbers, np.float64),
     }
     return tables, {"before": before, "rough": rough, "rings": rings}
+
+
+def _all_of(names: Sequence[str], rows: Mapping[str, range]) -> range:
+    """The rows of all these names that there are, which stand side by side."""
+    found = [rows[name] for name in names if name in rows]
+    return range(min(each.start for each in found), max(each.stop for each in found)) if found else NOWHERE
 
 
 def _numbers(graph: Graph, sensor: Sensor) -> Row:

@@ -100,7 +100,7 @@ class SightState(Block):
     # for this tick
     sides: Annotated[Array, rows("boxes", SIDES, kind=F4)]  # those of the boxes nearby, relative to the robot
     nearest: Annotated[Array, rows(THING_ROWS)]  # of several things of one name
-    nearest_of: Annotated[Array, shape(1)]  # the first row of these, −2 − the first box, −1 before any sensor has asked
+    nearest_of: Annotated[Array, shape(1)]  # which these are, −2 − the first box, −1 before any sensor has asked
     frame: Annotated[Array, rows(FRAME_ROWS, kind=F4)]  # of the thing that is looked at
     sight: Annotated[Array, rows("sight", kind=F4)]  # heading and place, then how far each ray goes
 

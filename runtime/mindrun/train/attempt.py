@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph.graph import Lesson, Task
+from mindrun.graph.graph import Lesson, Need, Task
 from mindrun.graph.run_scores import Scores as RunScores
 from mindrun.kinds.learners import Learner, run_lengths
 from mindrun.train.ask_and_tell import ask, kept_count, tell
@@ -28,7 +28,7 @@ from mindrun.train.scoring import (
     lowest_of,
     mark,
     marks_of,
-    succeeded,
+    measured,
 )
 
 SEGMENT_SECONDS = 2.0  # after which a segment ends with the generation at work
@@ -153,9 +153,9 @@ def is_enough(course: Course, scorer: Scorer, number: int, state: AttemptState, 
         return False, record
     key = course.seed, number, state.population.generation
     results = scorer.score(state.champion, layouts(*key, VERDICT_LAYOUTS, Purpose.ENOUGH))
-    marks = marks_of(results, lesson.learner.lowest)
-    reached = marks.scores[0] if until.measure == "score" else succeeded(scorer.task, results).mean()
-    return bool(reached > until.above), replace(
+    marks = marks_of(results)
+    reached = lowest_mean(measured(until, scorer.task, results), _share(lesson, until))
+    return until.is_met(float(reached[0])), replace(
         record, ticks=record.ticks + marks.ticks, faults=record.faults + marks.faults
     )
 
@@ -189,11 +189,15 @@ def judge(course: Course, scorer: Scorer, state: AttemptState) -> Verdict:
 
 def has_needed(lesson: Lesson, task: Task, results: RunScores) -> bool:
     """True if a genome meets all needs of a lesson, by its results on each half of the layouts of a verdict."""
-    scores = of_halves(marks_of(results).each, lesson.learner.lowest)
     return all(
-        (scores if need.measure == "score" else of_halves(succeeded(task, results))).min() > need.above
+        need.is_met(float(of_halves(measured(need, task, results), _share(lesson, need)).min()))
         for need in lesson.needs
     )
+
+
+def _share(lesson: Lesson, need: Need) -> float:
+    """The share of runs, the lowest, that a need is about: all of them, where it is about no score."""
+    return lesson.learner.lowest if need.measure == "score" else 1.0
 
 
 def verdict_layouts(seed: int, generations: int) -> Seeds:

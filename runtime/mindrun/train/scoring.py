@@ -12,7 +12,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph.graph import Task
+from mindrun.graph.graph import Need, Task
 from mindrun.graph.run_scores import Scores as RunScores
 from mindrun.train.population import Genomes, Scores
 
@@ -112,3 +112,17 @@ def succeeded(task: Task, results: RunScores) -> NDArray[np.bool_]:
     """A mask [genomes, seeds] of the runs that met a success before any other end, whether or not it ended them."""
     successes = [number for number, end in enumerate(task.ends) if end.succeeds]
     return np.isin(results.met, successes)
+
+
+def measured(need: Need, task: Task, results: RunScores) -> NDArray[Any]:
+    """The figures [genomes, seeds] that a need of a lesson on a task is about, one for each run.
+
+    ValueError where it is about an event that the task does not have.
+    """
+    match need.measure:
+        case "score":
+            return marks_of(results).each
+        case "success":
+            return succeeded(task, results)
+        case "event":
+            return results.by_event[..., task.events.index(need.event)]

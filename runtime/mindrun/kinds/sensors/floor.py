@@ -20,8 +20,9 @@ class Inside(Physical):
 
     def first(self, begin: Begin) -> Bounds | None:
         """1 where the robot begins inside of the thing, 0 where not; None where noise hides that, or it is drawn."""
-        there = None if self.noise else begin.is_within(self.of)
-        return None if there is None else (float(there), float(there))
+        there = {None if self.noise else begin.is_within(thing) for thing in self.things}
+        is_in = True if True in there else None if None in there else False
+        return None if is_in is None else (float(is_in), float(is_in))
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

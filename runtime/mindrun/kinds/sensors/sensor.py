@@ -204,7 +204,7 @@ class SensorKind(AboutThing):
 
     def constant(self, world: WorldFacts) -> float | None:
         """The reading that never changes in a world, without its thing or in a dead zone that has all; else None."""
-        if self.thing and self.thing not in world.things:
+        if self.things and not any(thing in world.things for thing in self.things):
             return self.blank
         return self.rest if self.dead_zone > max(self.rest, 1 - self.rest) else None
 

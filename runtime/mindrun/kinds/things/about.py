@@ -4,6 +4,8 @@ from mindrun.kinds.registry import arguments
 from mindrun.kinds.things.thing import ThingKind
 from mindrun.numbers.quantity import THING, Reference
 
+OR = " or "  # between the names of the things that a sensor is about alike
+
 
 class AboutThing:
     """A sensor, event or measure: it may be about a thing of the task, of any kind but obstacles unless it says."""
@@ -12,8 +14,13 @@ class AboutThing:
 
     @property
     def thing(self) -> str:
-        """The name of the thing that it is about, which its argument of that type says; empty where it has none."""
+        """The name of the thing that it is about, or several with OR between, as its argument says; empty for none."""
         return self.named(THING)
+
+    @property
+    def things(self) -> tuple[str, ...]:
+        """The names of all things that it is about alike: a sensor may have several; none where it has none."""
+        return tuple(filter(None, self.thing.split(OR)))
 
     @property
     def other(self) -> str:
