@@ -78,7 +78,7 @@ def _words(code: str) -> Iterator[re.Match[str]]:
 def _tokens(tree: Tree[Token], event: str) -> Iterator[tuple[Token, str]]:
     """The tokens with their scopes; in an event even a bare name is a function."""
     names = 0
-    is_about_event = tree.data in ("ends", "succeeds", "counts", "rewards", "stop")
+    is_about_event = tree.data in ("ends", "succeeds", "counts", "rewards", "stop", "often", "until")
     for number, child in enumerate(tree.children):
         if isinstance(child, Tree):
             is_event = is_about_event and child.data == "call" and number >= (tree.data == "rewards")
