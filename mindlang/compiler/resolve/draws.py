@@ -71,7 +71,7 @@ def at_drawn(phrase: Phrase, draws: Mapping[str, Draw], findings: Findings) -> t
             or not any(each.name in draws for each in amounts)
         ):
             continue
-        signs = [int(each.number) * numbers.get(each.name, 0) for each in amounts]
+        signs = [int(each.number) * numbers[each.name] if each.name in draws else 0 for each in amounts]
         first, *others = (Numbers(both, argument.value.span) for both in product(*(_ends(a, draws) for a in amounts)))
         instead = [Argument(Name("or", argument.span), Either(tuple(others), argument.span), argument.span)]
         changed = [replace(argument, value=first), *(instead if others else [])]
