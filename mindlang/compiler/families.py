@@ -6,6 +6,7 @@ In `reading N of wanted` it is the number.
 """
 
 import re
+import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace as with_fields
 from typing import Any, TypeVar
@@ -48,6 +49,8 @@ def _wrong_numbers(first: Amount, last: Amount, lines: int) -> str:
         return "The members of a family have whole numbers."
     if last.number < first.number:
         return "This family has no members."
+    if not last.number - first.number <= sys.maxsize:  # also of numbers that are no longer any
+        return f"This family has too many members: {MOST_MEMBERS} is the most."
     count = int(last.number - first.number) + 1
     if count > MOST_MEMBERS:
         return f"This family has {count} members, and {MOST_MEMBERS} is the most."

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from itertools import product
+from math import isfinite
 
 from mindrun.graph.draws import MAX_VALUES, Draw
 from mindrun.numbers.quantity import NUMBER
@@ -74,7 +75,8 @@ def at_drawn(phrase: Phrase, draws: Mapping[str, Draw], findings: Findings) -> t
         signs = [int(each.number) * numbers[each.name] if each.name in draws else 0 for each in amounts]
         first, *others = (Numbers(both, argument.value.span) for both in product(*(_ends(a, draws) for a in amounts)))
         instead = [Argument(Name("or", argument.span), Either(tuple(others), argument.span), argument.span)]
-        changed = [replace(argument, value=first), *(instead if others else [])]
+        is_said = all(isfinite(each.number) for each in amounts)  # what is not is reported once
+        changed = [replace(argument, value=first), *(instead if others and is_said else [])]
         arguments = (*phrase.arguments[:place], *changed, *phrase.arguments[place + 1 :])
         if any(each.key.text in ("or", "count") for each in phrase.arguments):
             hint = "Write a thing for each of them, or leave the drawn number out."
