@@ -34,13 +34,6 @@ def command(file: str, output: Path | None) -> None:
         terminal.fail(f"{output} is there: nothing is overwritten.", "Take another name.", terminal.MISUSE)
     else:
         terminal.write_file(output, text.encode())
-    words = (
-        "mindc",
-        "build",
-        Path(file),
-        "--robot",
-        output or Path("robot.yaml"),
-        "-o",
-        Path(file).with_suffix(".bundle"),
-    )
+    where, bundle = output or Path("robot.yaml"), Path(file).with_suffix(".bundle")
+    words = "mindc", "build", Path(file), "--robot", where, "-o", bundle
     terminal.tell(f"{count} values to fill in, of which {command_line(*words)} says which are missing")

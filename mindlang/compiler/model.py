@@ -82,7 +82,7 @@ class Promise(Struct, frozen=True):
 
     @property
     def text(self) -> str:
-        """Its line as it is written, but for spaces."""
+        """The line that says the promise, with single spaces."""
         return spaced(said(self.fact))
 
 

@@ -232,6 +232,14 @@ def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...]) -> tuple
             made = kind(size=draw(size), **placed, **outcomes, **drawn)
             has_room = not made.within or made.mistake(scene) is None
             things.append(Thing(name, made if has_room else replace(made, within=""), draw(_presence(draws))))
+    things += draw(_obstacles(scene))
+    return tuple(draw(_drawn_places(each, draws)) for each in draw(st.permutations(things)))
+
+
+@st.composite
+def _obstacles(draw: st.DrawFn, scene: SceneKind) -> list[Thing]:
+    """What stands in the way: obstacles on a grid, loose or in places, a maze and a fence, each now and then."""
+    things: list[Thing] = []
     grid = isinstance(scene, Arena) and draw(st.booleans())
     sizes = draw(st.sampled_from([Span(1.0, 1.0), Span(1.0, 3.0)]))
     if grid:
@@ -248,7 +256,7 @@ def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...]) -> tuple
         things.append(Thing("maze", Map(draw(st.sampled_from(MAZES)), draw(st.sampled_from([2.0, 3.5])))))
     if draw(st.booleans()):
         things.append(Thing("fence", Wall(draw(st.sampled_from(WAYS)), draw(st.sampled_from([1.0, 0.5, 2.5, 0.05])))))
-    return tuple(draw(_drawn_places(each, draws)) for each in draw(st.permutations(things)))
+    return things
 
 
 def _presence(draws: tuple[Draw, ...]) -> st.SearchStrategy[Program]:
