@@ -1,14 +1,15 @@
 """What skills promise, counted over runs: how often each promise was kept, and who broke it."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from mindrun.engine.promises import BY_INFLUENCE, BY_SKILL, HELD, PromiseWatcher
+from mindrun.engine.promises import BY_INFLUENCE, BY_SKILL, HELD, PromiseWatcher, Singles
 from mindrun.graph.graph import Graph
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
+from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import EdgeFlows
 
@@ -30,11 +31,11 @@ class PromiseCounts:
         self.watcher.reset()
         ticks, was_broken = 0, np.zeros(len(self.watcher.promises), bool)
         for part in parts:
-            judged = self.watcher.feed(part.readings, part.influence)
+            became = self.watcher.feed(part.readings, part.influence)
             for name, verdict in VERDICTS.items():
-                self._times[name] += (judged == verdict).sum(axis=0)
-            was_broken |= (judged >= BY_SKILL).any(axis=0)
-            ticks += len(judged)
+                self._times[name] += (became == verdict).sum(axis=0)
+            was_broken |= (became >= BY_SKILL).any(axis=0)
+            ticks += len(became)
         self._times["unfinished"] += self.watcher.acting
         self._times["broken_runs"] += was_broken
         self.runs += 1
@@ -71,20 +72,26 @@ def promises_of(skill: str, flows: EdgeFlows, rows: range) -> list[dict[str, Any
     watcher = PromiseWatcher(flows.graph, flows.master)
     if not any(owner == skill for owner, _ in watcher.promises):
         return []
-    readings, influence = flows.rows(np.arange(rows.stop))
-    begins = sorted({0, *(row for row in range(rows.stop) if row in flows.begins)})
-    parts = []
-    for begin, end in pairwise([*begins, rows.stop]):
-        watcher.reset()
-        parts.append(watcher.feed(readings[begin:end], influence[begin:end]))
+    begins = [row for row in range(rows.stop) if row in flows.begins]
+    became = judged(watcher, *flows.rows(np.arange(rows.stop)), begins)
     found = []
-    for column, (owner, promise) in zip(np.concatenate(parts)[rows.start :].T, watcher.promises, strict=True):
+    for column, (owner, promise) in zip(became[rows.start :].T, watcher.promises, strict=True):
         if owner == skill:
             times = {name: int((column == verdict).sum()) for name, verdict in VERDICTS.items()}
             broken = np.flatnonzero(column >= BY_SKILL)
             first = int(broken[0]) + rows.start + 1 if len(broken) else None
             found.append({"promise": promise.text, **times, "first_broken": first})
     return found
+
+
+def judged(watcher: PromiseWatcher, readings: Singles, influence: Singles, begins: Collection[int]) -> NDArray[np.int8]:
+    """What became of each promise [rows, promises] in the next rows; in those of `begins` the mind begins anew."""
+    parts = []
+    for first, end in pairwise([0, *begins, len(readings)]):
+        if first in begins:
+            watcher.reset()
+        parts.append(watcher.feed(readings[first:end], influence[first:end]))
+    return np.concatenate(parts)
 
 
 def _told(word: str) -> tuple[str, ...]:

@@ -15,6 +15,7 @@ from mindlang.pictures.theme import NIGHT, PAPER, code
 from mindlang.run import outcome
 from mindlang.view.messages import shown
 from mindlang.view.rows import Columns
+from mindlang.view.viewed_promises import PROMISE_COLUMNS
 
 Texts = Mapping[tuple[str, str], str]  # what a line says, by the names of its skill and of whom it is for
 Data = dict[str, Any]
@@ -71,6 +72,7 @@ def _hierarchy(graph: Graph, master: str, skills: Sequence[Skill], columns: Colu
     numbers = {node: number for number, node in enumerate(nodes)}
     read_from = [numbers[key] for key, node in nodes.items() if node.group == "readings" for _ in node.places]
     own = {skill.name: numbers["skill", graph.skill_numbers[skill.name]] for skill in skills}
+    promises = _promises(skills, columns)
     return {
         "nodes": [
             {
@@ -79,13 +81,16 @@ def _hierarchy(graph: Graph, master: str, skills: Sequence[Skill], columns: Colu
                 "says": names().get(type(node.kind), ""),
                 "columns": [columns[node.group].column(place) for place in node.places],
                 "master": noun == "skill" and node.name == master,
+                "chooses": noun == "skill" and graph.skills[place].chooses,
+                "promises": promises.get(node.name, []) if noun == "skill" else [],
             }
-            for (noun, _), node in nodes.items()
+            for (noun, place), node in nodes.items()
         ],
         "edges": [
             {
                 "from": own[skill.name],
                 "to": numbers[edge.to, edge.target],
+                "over": [numbers[sink] for sink in edge.over],
                 "text": shown(texts.get((skill.name, graph.named(edge.to, edge.target)), "").strip()),
             }
             for skill in skills
@@ -97,6 +102,17 @@ def _hierarchy(graph: Graph, master: str, skills: Sequence[Skill], columns: Colu
             for source in dict.fromkeys(read_from[reading] for reading in skill.inputs)
         ],
     }
+
+
+def _promises(skills: Sequence[Skill], columns: Columns) -> dict[str, list[Data]]:
+    """What each skill promises: its text, and the columns of its verdict and of how often it was held or broken."""
+    promises = [(skill.name, promise) for skill in skills for promise in skill.promises]
+    found: dict[str, list[Data]] = {}
+    for number, (skill, promise) in enumerate(promises):
+        places = range(number * PROMISE_COLUMNS, (number + 1) * PROMISE_COLUMNS)
+        of = [columns["promises"].column(place) for place in places]
+        found.setdefault(skill, []).append({"text": shown(promise.text), "columns": of})
+    return found
 
 
 def order_data(graph: Graph) -> list[Data]:

@@ -1,6 +1,6 @@
 """Rows of a recording as a page sees them, whoever makes them: a simulator now, a robot, or one who wrote them down."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,6 +18,7 @@ from mindlang.view.about import Texts, about_data, robot_event_data, world_event
 from mindlang.view.messages import shown
 from mindlang.view.rows import DOUBLE_BLOCK, FLOW, Columns, Doubles, Singles
 from mindlang.view.viewed import Viewed
+from mindlang.view.viewed_promises import PROMISE_COLUMNS, ViewedPromises
 
 if TYPE_CHECKING:
     from mindlang.breakpoints.watch import Stop
@@ -49,11 +50,17 @@ def viewed_rows(
     """
     ready = hierarchy(mind.policy, mind.procedures, of.master)
     skills = [mind.graph.skills[skill.index] for skill in ready.skills]
-    columns = columns_of(of, mind, source == RUN, sum(len(skill.edges) for skill in skills))
+    promises = ViewedPromises(mind.graph, of.master)
+    edges = sum(len(skill.edges) for skill in skills)
+    columns = columns_of(of, mind, source == RUN, len(promises.texts), edges)
     drawing = None
     if of.world and task and task.scene.environment:
         drawing = partial(seen_episode, mind.graph, task, folder, of.world.seed)
-    happens = [*([] if source == RUN else robot_event_data(of)), *(world_event_data(task) if task else [])]
+    happens = [
+        *([] if source == RUN else robot_event_data(of)),
+        *({"text": shown(f"broken: {text}"), "kind": "broken"} for text in promises.texts),
+        *(world_event_data(task) if task else []),
+    ]
     about = {
         "title": shown(title),
         "source": source,
@@ -62,11 +69,11 @@ def viewed_rows(
         "events": happens,
         **about_data(of, mind.graph, task, skills, columns, texts or {}),
     }
-    growth = partial(_growth, rows, of, task, len(happens), watch)
+    growth = partial(_growth, rows, of, task, promises, len(happens), watch)
     return Viewed(about, columns, growth, mind.graph, ready, drawing, of_ticks is None)
 
 
-def columns_of(of: About, mind: Bundle, is_run: bool, edges: int) -> Columns:
+def columns_of(of: About, mind: Bundle, is_run: bool, promises: int, edges: int) -> Columns:
     """The columns of rows; of a run that is simulated while it is seen, those that differ from tick to tick."""
     doubles: dict[str, int] = {} if is_run else {"time": 1}
     singles: dict[str, int] = {}
@@ -78,11 +85,17 @@ def columns_of(of: About, mind: Bundle, is_run: bool, edges: int) -> Columns:
     singles |= {"readings": mind.graph.width, "influence": len(of.skills), "commands": commands}
     if not is_run:
         singles |= {"sent": commands, "stopped": 1, "armed": 1, "faults": len(of.sensors)}
-    return Columns.of(doubles, {**singles, FLOW: edges})
+    return Columns.of(doubles, {**singles, "promises": PROMISE_COLUMNS * promises, FLOW: edges})
 
 
 def _growth(
-    parts: Iterator[Filled], of: About, task: Task | None, events: int, watch: Watch | None, viewed: Viewed
+    parts: Iterator[Filled],
+    of: About,
+    task: Task | None,
+    promises: ViewedPromises,
+    events: int,
+    watch: Watch | None,
+    viewed: Viewed,
 ) -> Iterator[bool]:
     """Add rows with what happened in them to what is viewed, a part each time."""
     columns = viewed.columns
@@ -91,14 +104,14 @@ def _growth(
     is_run = "time" not in columns
     number, start, before = 0, 0.0, np.zeros((1, events), np.uint64)
     for rows, readings in parts:
-        doubles, singles = _blocks(rows, columns, readings)
+        begins = np.flatnonzero(rows["tick"] == 0).tolist()
+        kept, broken = promises.feed(readings, rows["influence"], begins)
+        doubles, singles = _blocks(rows, columns, {"readings": readings, "promises": kept})
         if not len(rows):  # nothing has come for a while
             yield True
             continue
-        viewed.begins |= {number + 1 + int(row) for row in np.flatnonzero(rows["tick"] == 0)}
-        robot = [] if is_run else [rows["stopped"] != 0, rows["tick"] == 0, rows["faults"] != 0]
-        world = [rows["world"]["events"], rows["world"]["touching"] != 0] if task else []
-        levels = np.column_stack([*robot, *world]).astype(np.uint64)[:, :events]  # whose rising edges are events
+        viewed.begins |= {number + 1 + row for row in begins}
+        levels = _levels(rows, is_run, task, broken)[:, :events]
         if not is_run:
             start = start if number else float(rows["time"][0])
             levels[0, BEGIN_COLUMN] *= number > 0  # the first beginning is no event
@@ -116,6 +129,13 @@ def _growth(
         number, before = number + len(rows), levels[-1:]
 
 
+def _levels(rows: Rows, is_run: bool, task: Task | None, broken: NDArray[np.bool_]) -> NDArray[np.uint64]:
+    """The numbers [rows, events] of which each rise is an event."""
+    robot = [] if is_run else [rows["stopped"] != 0, rows["tick"] == 0, rows["faults"] != 0]
+    world = [rows["world"]["events"], rows["world"]["touching"] != 0] if task else []
+    return np.column_stack([*robot, broken, *world]).astype(np.uint64)
+
+
 def _beginning(columns: Columns, of: About) -> tuple[Doubles, Singles]:
     """The row of tick 0, in which nothing has been read, thought or sent."""
     doubles = np.full((1, columns.width(DOUBLE_BLOCK)), np.nan)
@@ -131,13 +151,13 @@ def _beginning(columns: Columns, of: About) -> tuple[Doubles, Singles]:
     return doubles, singles
 
 
-def _blocks(rows: Rows, columns: Columns, readings: Singles) -> tuple[Doubles, Singles]:
-    """Both blocks [ticks, columns] of rows whose readings are these; `flow` is not kept."""
+def _blocks(rows: Rows, columns: Columns, found: Mapping[str, NDArray[Any]]) -> tuple[Doubles, Singles]:
+    """Both blocks [ticks, columns] of rows, of which some groups were found beside them; `flow` is not kept."""
     doubles = np.empty((len(rows), columns.width(DOUBLE_BLOCK)))
     singles = np.empty((len(rows), columns.kept_singles), np.float32)  # bits of readings stay what they are
     for name, group in columns.items():
         if name != FLOW:
-            value = readings if name == "readings" else _value(name, rows)
+            value = found[name] if name in found else _value(name, rows)
             block = doubles if group.block == DOUBLE_BLOCK else singles
             block[:, group.places] = value.reshape(len(rows), group.count)
     return doubles, singles

@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Iterator
-from dataclasses import replace
 from itertools import cycle
 from pathlib import Path
 from typing import Any
@@ -208,7 +207,8 @@ def test_colours_are_the_systems_until_somebody_chooses(browser: Any, mind: Path
 
 def test_names_do_nothing_whatever_they_are(browser: Any, mind: Path) -> None:
     viewed = simulated(mind)
-    with served(replace(viewed, about=renamed(dict(viewed.about), cycle(HOSTILE)))) as view:
+    viewed.about = renamed(dict(viewed.about), cycle(HOSTILE))
+    with served(viewed) as view:
         found = Opened(browser, f"http://{view.host}/#{view.token}")
         found.jump(100)
         for node in found.page.locator("#hierarchy .node").all():
@@ -360,7 +360,8 @@ def test_a_window_that_gets_another_size_shows_all(opened: Opened) -> None:
 
 def test_what_has_no_world_is_shown_without_one(browser: Any, mind: Path) -> None:
     viewed = simulated(mind)
-    with served(replace(viewed, about={**viewed.about, "world": None})) as view:
+    viewed.about = {**viewed.about, "world": None}
+    with served(viewed) as view:
         found = Opened(browser, f"http://{view.host}/#{view.token}")
         found.jump(100)
         assert found.page.is_visible("#no-world")

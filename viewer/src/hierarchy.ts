@@ -3,9 +3,10 @@
 import { Camera } from "./camera";
 import { EdgeCanvas } from "./edge_canvas";
 import { type Placed, place, type Size } from "./layout";
-import type { Selected } from "./description";
+import { overWords, type Selected } from "./description";
 import { make, smooth } from "./svg";
 import { shown } from "./names";
+import { light, marks } from "./promises";
 import { type About, type Column, columnOf } from "./protocol";
 import { type Row, valueAt } from "./rows";
 import { Subtrees } from "./subtrees";
@@ -22,6 +23,7 @@ const NODE_WIDTH_MIN = 72;
 const LEVELS = 48; // so many widths and glows there are: what has not changed is not touched
 const EDGE_PIXELS_MAX = 9;
 const TAB_STOPS_MAX = 80; // with more than that, edges are not stops of the tab key
+const CHOICE_PIXELS = 5;
 const MANY_EDGES = 400; // then they are on a canvas, those that transmit nothing are not seen, and all are drawn less often
 const MANY_MILLISECONDS = 60;
 const MARGIN = { above: 36, below: 26 }; // for the title and the legend
@@ -32,6 +34,7 @@ interface Drawn {
   node: SVGElement;
   level: number;
   column: Column | null;
+  marks: SVGElement[]; // of its promises
 }
 
 export class Hierarchy {
@@ -119,7 +122,8 @@ export class Hierarchy {
     this.drawnAt = now;
     for (const edge of this.many) this.canvas.light(edge, valueAt(row, columnOf(this.about, "flow", edge)));
     if (this.many.length) this.canvas.draw();
-    for (const drawn of this.nodes.values()) {
+    for (const [number, drawn] of this.nodes) {
+      light(drawn.marks, this.about.nodes[number].promises, row);
       const level = levelOf(valueAt(row, drawn.column));
       if (level === drawn.level) continue;
       drawn.level = level;
@@ -202,17 +206,24 @@ export class Hierarchy {
   }
 
   private edge(number: number, among: number): Drawn {
-    const { from, to } = this.about.edges[number];
-    const name = `${shown(this.about.nodes[from].name)} to ${shown(this.about.nodes[to].name)}`;
-    const node = make("g", { class: "edge", "data-edge": number, role: "button", "aria-label": name });
+    const { from, to, over } = this.about.edges[number];
+    const name = `${shown(this.about.nodes[from].name)} to ${shown(this.about.nodes[to].name)} ${overWords(this.about, over)}`.trim();
+    const node = make("g", { class: `edge${over.length ? " over" : ""}`, "data-edge": number, role: "button", "aria-label": name });
     if (among <= TAB_STOPS_MAX) node.setAttribute("tabindex", "0");
-    const d = smooth(this.placed.lines.get(number)!);
+    const line = this.placed.lines.get(number)!;
+    const d = smooth(line);
     node.append(make("path", { class: "line", d }), make("path", { class: "touch", d }));
-    return { node, level: -1, column: columnOf(this.about, "flow", number) };
+    if (this.about.nodes[from].chooses && this.about.nodes[to].kind === "skill") {
+      const [{ x, y }, next] = line;
+      const share = CHOICE_PIXELS / (Math.hypot(next.x - x, next.y - y) || 1);
+      const [cx, cy] = [x + share * (next.x - x), y + share * (next.y - y)]; // it touches the box
+      node.append(make("circle", { class: "choice", cx, cy, r: CHOICE_PIXELS }));
+    }
+    return { node, level: -1, column: columnOf(this.about, "flow", number), marks: [] };
   }
 
   private node(number: number): Drawn {
-    const { name, kind, columns, master } = this.about.nodes[number];
+    const { name, kind, columns, master, promises } = this.about.nodes[number];
     const { width, height } = this.size(number);
     const { x, y } = this.placed.centres.get(number)!;
     const node = make("g", {
@@ -234,7 +245,9 @@ export class Hierarchy {
       fold.addEventListener("click", (event) => (event.stopPropagation(), this.toggle({ kind: "node", number })));
       node.append(fold);
     }
-    return { node, level: -1, column: columns[0] ?? null };
+    const found = marks(promises, width, height);
+    node.append(...found);
+    return { node, level: -1, column: columns[0] ?? null, marks: found };
   }
 
   private move(): void {

@@ -10,6 +10,14 @@ export interface Node {
   says: string;
   columns: Column[];
   master: boolean;
+  chooses: boolean; // sends one of its influences, and no other
+  promises: Promised[];
+}
+
+/** Its columns: what became of it in a tick, then in how many so far it was held, broken by its skill, and by those above. */
+export interface Promised {
+  text: string;
+  columns: Column[];
 }
 
 /** A sensor that is what somebody says: one of so many choices, or a number where there are none. */
@@ -26,6 +34,7 @@ export interface Edge {
   from: number;
   to: number;
   text: string;
+  over: number[]; // the nodes for which alone it counts; none where for all
 }
 
 export interface Curve {

@@ -10,7 +10,7 @@ const EVENT_PIXELS = 4; // so near to the pointer an event is meant
 const TRACK_PIXELS = 6;
 const MARK_PIXELS = 14;
 const EDGE_PIXELS = 8; // on both sides, so that nothing at an end is cut
-const ALARMS = ["collision", "fault", "stopped", "touch"];
+const ALARMS = ["broken", "collision", "fault", "stopped", "touch"];
 
 export class Timeline {
   private readonly context: CanvasRenderingContext2D;
