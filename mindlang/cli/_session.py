@@ -131,9 +131,9 @@ class RunSession:
         return made
 
     @terminal.procedures_talk()
-    def promises(self, prepared: Prepared, seeds: Sequence[int]) -> list[dict[str, Any]]:
-        """What became of the promises of a mind in the first runs of these seeds."""
-        return promises_in(prepared.rollout, prepared.setup.master, seeds)
+    def promises(self, prepared: Prepared, seeds: Sequence[int], most: int) -> list[dict[str, Any]]:
+        """What became of the promises of a mind in the first runs of these seeds, which have the `most` ticks."""
+        return promises_in(prepared.rollout, prepared.setup.master, seeds, most)
 
     @contextmanager
     def counting(self, what: str, runs: int) -> Iterator[Ran]:

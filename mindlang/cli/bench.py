@@ -141,8 +141,6 @@ class Bench:
         scores, data = self._score(prepared, seeds)
         self.session.say(*(f"note: {note}" for note in over_at_once(task, scores)))
         found = {"task": task.name, "master": setup.master, "seed": self.seed, **self._by(), **data}
-        if promises := self.session.promises(prepared, seeds):
-            found |= {"promises": promises}
         if self.table:
             self._write(self.table, runs_table(task, scores, seeds), f"{len(seeds):,} runs")
         print_result(self.as_json, found, lambda: bench_summary(found))
@@ -254,10 +252,14 @@ class Bench:
     def _score(
         self, prepared: "Prepared", seeds: Sequence[int], whose: str = "", ran: "Ran | None" = None
     ) -> "tuple[Scores, dict[str, Any]]":
-        """The score of each run, and the data of all of them; notes and progress are as in `RunSession.score`."""
+        """The score of each run, and the data of all of them; notes and progress are as in `RunSession.score`.
+
+        Promises are counted over fewer runs where these are some of many, of which `ran` is told.
+        """
         from mindlang.executors import scorer_on
         from mindlang.executors.jobs import assignment_of
         from mindlang.run.outcome import bench_data, over_at_once
+        from mindlang.run.promises import FEW_TICKS, MAX_COUNTED_TICKS
 
         setup, rollout = prepared
         cast = setup.ready.policy, setup.task.name, setup.master, setup.folder
@@ -265,7 +267,9 @@ class Bench:
         with scorer_on(self.where, rollout, assignment, self.workers, self.session.say) as scorer:
             scores, seconds, cpu = self.session.score(scorer, seeds, whose, ran)
         data = bench_data(setup.task, scores, seeds, seconds, None if self.where else cpu)
-        return scores, data | {"notes": setup.notes(rollout, *over_at_once(setup.task, scores))}
+        data |= {"notes": setup.notes(rollout, *over_at_once(setup.task, scores))}
+        promises = self.session.promises(prepared, seeds, FEW_TICKS if ran else MAX_COUNTED_TICKS)
+        return scores, data | ({"promises": promises} if promises else {})
 
     def _by(self) -> dict[str, int | str]:
         """The workers that make the runs, as data."""

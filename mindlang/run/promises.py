@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 from mindlang.run.edge_flow import EdgeFlows
 
 MAX_COUNTED_TICKS = 400_000  # of many runs: two seconds or so
+FEW_TICKS = 20_000  # of runs in one of many worlds, or after a lesson
 VERDICTS = {"held": HELD, "by_skill": BY_SKILL, "by_influence": BY_INFLUENCE}
+OF_RUNS = "unfinished", "broken_runs", "broken_runs_by_skill"  # in how many runs
 
 
 class PromiseCounts:
@@ -23,23 +25,26 @@ class PromiseCounts:
     def __init__(self, graph: Graph, master: str) -> None:
         self.watcher = PromiseWatcher(graph, master)
         self.runs = 0
-        many = len(self.watcher.promises)
-        self._times = {name: np.zeros(many, np.int64) for name in (*VERDICTS, "unfinished", "broken_runs")}
+        self._times = {name: self._zeros() for name in (*VERDICTS, *OF_RUNS)}
 
     def add(self, parts: Iterable[Any]) -> int:
         """Count a run, of which parts have `readings` and `influence`; return how many ticks it had."""
         self.watcher.reset()
-        ticks, was_broken = 0, np.zeros(len(self.watcher.promises), bool)
+        ticks, times = 0, {name: self._zeros() for name in VERDICTS}
         for part in parts:
             became = self.watcher.feed(part.readings, part.influence)
             for name, verdict in VERDICTS.items():
-                self._times[name] += (became == verdict).sum(axis=0)
-            was_broken |= (became >= BY_SKILL).any(axis=0)
+                times[name] += (became == verdict).sum(axis=0)
             ticks += len(became)
-        self._times["unfinished"] += self.watcher.acting
-        self._times["broken_runs"] += was_broken
+        by_skill, is_broken = times["by_skill"] > 0, times["by_skill"] + times["by_influence"] > 0
+        times |= dict(zip(OF_RUNS, (self.watcher.acting, is_broken, by_skill), strict=True))
+        for name, more in times.items():
+            self._times[name] += more
         self.runs += 1
         return ticks
+
+    def _zeros(self) -> NDArray[np.int64]:
+        return np.zeros(len(self.watcher.promises), np.int64)
 
     def data(self) -> list[dict[str, Any]]:
         """Each promise with its counts; those that nobody could break so far are held 0 times."""
@@ -54,14 +59,16 @@ class PromiseCounts:
         ]
 
 
-def promises_in(rollout: Rollout, master: str, seeds: Sequence[int]) -> list[dict[str, Any]]:
+def promises_in(
+    rollout: Rollout, master: str, seeds: Sequence[int], most: int = MAX_COUNTED_TICKS
+) -> list[dict[str, Any]]:
     """The promises of a mind, counted over the first of the runs of these seeds, which are made again for that.
 
-    So many that they have MAX_COUNTED_TICKS together, and one at least; none where nothing is promised.
+    So many that they have the `most` ticks together, and one at least; none where nothing is promised.
     """
     counts, ticks = PromiseCounts(rollout.graph, master), 0
     for seed in seeds if counts.watcher.promises else ():
-        if ticks >= MAX_COUNTED_TICKS:
+        if ticks >= most:
             break
         ticks += counts.add(trace(rollout, seed).chunks)
     return counts.data()
@@ -100,5 +107,5 @@ def _told(word: str) -> tuple[str, ...]:
         case "requires":
             return "held", "by_influence", "broken_runs"
         case "achieves":
-            return "held", "by_skill", "by_influence", "unfinished", "broken_runs"
-    return "held", "by_skill", "by_influence", "broken_runs"
+            return (*VERDICTS, *OF_RUNS)
+    return (*VERDICTS, *OF_RUNS[1:])

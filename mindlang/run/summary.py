@@ -14,8 +14,14 @@ from mindlang.run.outcome import TIME
 from mindlang.run.paired_difference import MAX_RUNS, PairedDifference
 from mindlang.run.worlds import figure
 
+LINE_COLUMNS = 80
 PROMISE_COLUMNS = 46  # for a skill and what it promises
+WHERE_COLUMNS = 26  # for the name of a world or a skill beside it
 WORLD_COLUMNS = 52  # for the name of a world beside one mind; half of them beside two
+
+Row = Sequence[str | Text]
+Promised = Sequence[dict[str, Any]]
+Elsewhere = tuple[str, Promised, Mapping[str, Promised]]  # a mind, its promises here, and those elsewhere
 
 
 def run_summary(found: dict[str, Any]) -> RenderableType:
@@ -77,14 +83,55 @@ def _promises(found: dict[str, Any]) -> Iterator[RenderableType]:
 
 
 def _promise_row(found: dict[str, Any]) -> list[str | Text]:
-    name = Text(f"{found['skill']} {found['promise']}")
-    name.truncate(PROMISE_COLUMNS, overflow="ellipsis")
     by = [found.get(whose) for whose in ("by_skill", "by_influence")]
     judged = found["held"] + sum(filter(None, by))
     share = f"{found['held'] / judged:.1%}" if judged else "–"
     held = "< 100%" if share == "100.0%" and found["held"] < judged else share
     runs = [f"{found['broken_runs']}"] if found["runs"] > 1 else []
-    return [name, held, *("" if many is None else f"{many:,}" for many in by), *runs]
+    return [
+        _cut(f"{found['skill']} {found['promise']}", PROMISE_COLUMNS),
+        held,
+        *("" if many is None else f"{many:,}" for many in by),
+        *runs,
+    ]
+
+
+def _broken_by_both(minds: Sequence[dict[str, Any]]) -> Iterator[RenderableType]:
+    """A row for each promise: in how many runs of two minds it was broken; – where one does not promise it."""
+    both = [{f"{each['skill']} {each['promise']}": each for each in mind.get("promises", ())} for mind in minds]
+    if names := [*(both[0] | both[1])]:
+        rows: list[Row] = [[_cut(name, PROMISE_COLUMNS), *(_broken(each.get(name)) for each in both)] for name in names]
+        yield aligned([[Text(each, "dim") for each in ("promise broken in", "A", "B")], *rows], left=(0,))
+        yield ""
+
+
+def _broken_elsewhere(heads: tuple[str, str, str], minds: Sequence[Elsewhere]) -> Iterator[RenderableType]:
+    """A row for each promise of minds: in how many runs it was broken here, and there where it was in most."""
+    rows = [("", *heads)]
+    for name, here, there in minds:
+        for i, promise in enumerate(here):
+            others = {where: promises[i] for where, promises in there.items() if where != promise["skill"]}
+            share = {where: each["broken_runs"] / each["runs"] for where, each in others.items()}
+            worst = max(share, key=share.__getitem__, default="")
+            is_worse = share.get(worst, 0) > promise["broken_runs"] / promise["runs"]
+            where = _cut(worst if is_worse else "", WHERE_COLUMNS).plain
+            of = f"{name}{promise['skill']} {promise['promise']}"
+            rows.append((of, _broken(promise), _broken(others.get(worst)), where))
+    if len(rows) > 1:
+        room = LINE_COLUMNS - sum(2 + max(map(len, column)) for column in [*zip(*rows, strict=True)][1:])
+        cells: list[Row] = [[_cut(of, room), *row] for of, *row in rows[1:]]
+        yield ""
+        yield aligned([[Text(each, "dim") for each in ("promise broken in", *heads)], *cells], left=(0, 3))
+
+
+def _broken(found: dict[str, Any] | None) -> str:
+    return f"{found['broken_runs']} of {found['runs']}" if found else "–"
+
+
+def _cut(text: str, columns: int) -> Text:
+    found = Text(text)
+    found.truncate(columns, overflow="ellipsis")
+    return found
 
 
 def _title(found: dict[str, Any]) -> Text:
@@ -148,6 +195,7 @@ def comparison_summary(found: dict[str, Any], comparison: MindComparison) -> Ren
         "",
         aligned([["", *(Text(each, "dim") for each in head[:columns])], *table], left=(0, 1)),
         "",
+        *_broken_by_both(found["minds"]),
         *(Text(line, "dim") for each in told for line in _told(*each)),
         Text(comparison.conclusion, "bold"),
     )
@@ -208,14 +256,25 @@ def worlds_summary(found: dict[str, Any]) -> RenderableType:
         aligned([[Text(each, "dim") for each in head], *rows], left=(0,)),
         "",
         Text("share: of the mean as taught; time: of the task's ticks; ± is one standard error", "dim"),
+        *_broken_elsewhere(("as taught", "at worst", "in"), [*_promised_in_worlds(found)]),
     )
+
+
+def _promised_in_worlds(found: dict[str, Any]) -> Iterator[Elsewhere]:
+    """Each mind with its promises as taught, and in each other world."""
+    for place, mind in zip("AB", found["minds"], strict=False):
+        there = {
+            row["world"]: each.get("promises", ())
+            for row in found["worlds"]
+            for each in row["minds"]
+            if each["name"] == mind["name"]
+        }
+        yield f"{place} " * (len(found["minds"]) > 1), there.pop(found["worlds"][0]["world"]), there
 
 
 def _world_row(row: dict[str, Any], minds: Sequence[str]) -> Iterator[str | Text]:
     """The name of a world, and the cells of each mind; – where it has no such world, or no share."""
-    world = Text(row["world"])
-    world.truncate(WORLD_COLUMNS // len(minds), overflow="ellipsis")
-    yield world
+    yield _cut(row["world"], WORLD_COLUMNS // len(minds))
     there = {each["name"]: each for each in row["minds"]}
     for found in map(there.get, minds):
         if found is None:
@@ -240,10 +299,14 @@ def credit_summary(found: dict[str, Any], credited: Mapping[str, PairedDifferenc
         aligned([[Text(each, "dim") for each in head], *rows], left=(0,)),
         "",
         Text("credit: how much more the whole mind has, on the same layouts", "dim"),
+        *_broken_elsewhere(
+            ("whole", "at worst", "without"),
+            [("", found.get("promises", ()), {each["skill"]: each.get("promises", ()) for each in found["skills"]})],
+        ),
     )
 
 
-def aligned(rows: Sequence[Sequence[str | Text]], left: Collection[int]) -> Text:
+def aligned(rows: Sequence[Row], left: Collection[int]) -> Text:
     """A line for each row, two blanks between its columns; those in `left` are set to the left, others to the right."""
     cells = [[Text(cell) if isinstance(cell, str) else cell.copy() for cell in row] for row in rows]
     for number, column in enumerate(zip(*cells, strict=True)):

@@ -47,6 +47,11 @@ def held_influence(run: RunFolder, subject: Subject, genome: Genomes) -> list[st
     ]
 
 
+def taught_policy(run: RunFolder, subject: Subject, genome: Genomes) -> Policy:
+    """The mind of a run with a genome of its learners."""
+    return Policy(subject.graph, {**run.weights, **parts(subject.graph, run.manifest.learners, genome)})
+
+
 def _spans(run: RunFolder, subject: Subject, genome: Genomes) -> Spans:
     """The numbers that learners send to subskills by their weights, while they have influence, in a few fresh runs."""
     lesson, learners, graph = run.manifest.lesson, run.manifest.learners, subject.graph
@@ -59,7 +64,7 @@ def _spans(run: RunFolder, subject: Subject, genome: Genomes) -> Spans:
     found: Spans = {}
     if not learnt:
         return found
-    policy = Policy(graph, {**run.weights, **parts(graph, learners, genome)})
+    policy = taught_policy(run, subject, genome)
     rollout = rollout_for(policy, lesson.task, lesson.master, procedures=subject.folder)
     sources = procedure_sources(graph, subject.folder, lesson.master)
     for seed in verdict_layouts(run.manifest.seed, lesson.generations)[:LOOKED_RUNS].tolist():

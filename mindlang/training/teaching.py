@@ -25,6 +25,7 @@ from mindlang.executors.jobs import JobScorer, StretchExecutor, WorkError, assig
 from mindlang.limits import refuse_too_large, refuse_too_long
 from mindlang.lock.blobs import digest
 from mindlang.number_format import duration, finite, short_score, speed
+from mindlang.training.broken_promises import broken_promises
 from mindlang.training.held_influence import held_influence
 from mindlang.training.lock_update import Kept, keep
 from mindlang.training.retention import retention_table
@@ -145,7 +146,8 @@ def finish(
     """
     kept = keep(run, subject, state, scorer, force, workers)
     result = result_of(run, subject, state, kept)
-    more = held_influence(run, subject, state.kept[0]) if kept.is_new else []
+    looks = (held_influence, broken_promises) if kept.is_new else ()
+    more = [note for look in looks for note in look(run, subject, state.kept[0])]
     result["notes"] = [*notes, *more, *result["notes"]]
     keep_result(run.folder, result)
     return result, kept

@@ -1,6 +1,7 @@
 """Promises change nothing that is computed, and are counted over runs as they are judged in one."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ from mindrun.sim.trace import Ticks, joined, trace
 
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source
-from mindlang.run.promises import promises_in
+from mindlang.run.promises import FEW_TICKS, promises_in
 from mindlang.run.setup import RunSetup, set_up
 from tests.calling import Call
 
@@ -87,15 +88,60 @@ def test_a_broken_promise_is_read_in_the_tick_in_which_it_is_broken(seed: int) -
     assert np.array_equal(run.readings[:, place] > 0.5, broken)
 
 
-def test_a_bench_counts_what_its_runs_have(mindc: Call, tmp_path: Path) -> None:
+@pytest.fixture
+def dock(tmp_path: Path) -> Path:
     path = tmp_path / "dock.mind"
     path.write_text(MIND, encoding="utf-8")
-    whole: list[dict[str, Any]] = json.loads(mindc("bench", path, "--runs", 3, "--json").out)["promises"]
+    return path
+
+
+def bench(mindc: Call, *words: Any) -> dict[str, Any]:
+    return dict(json.loads(mindc("bench", *words, "--json").out))
+
+
+def test_a_bench_counts_what_its_runs_have(mindc: Call, dock: Path) -> None:
+    whole: list[dict[str, Any]] = bench(mindc, dock, "--runs", 3)["promises"]
     setup = prepared(MIND)
     parts = [promises_in(setup.rollout(), "Feed", [seed]) for seed in setup.layouts(1, 3)]
     for i, each in enumerate(whole):
         assert each["runs"] == 3
-        for name in each.keys() & {"held", "by_skill", "by_influence", "unfinished", "broken_runs"}:
+        for name in each.keys() - {"skill", "promise"}:
             assert each[name] == sum(part[i][name] for part in parts)
+        assert each["broken_runs"] == sum(part[i]["by_influence"] + part[i].get("by_skill", 0) > 0 for part in parts)
+        assert each.get("broken_runs_by_skill", 0) == sum(part[i].get("by_skill", 0) > 0 for part in parts)
     assert whole[0]["by_influence"] > 0
-    assert "SeekDock requires charge > 20%" in mindc("run", path, "--seed", 1).out
+    assert "SeekDock requires charge > 20%" in mindc("run", dock, "--seed", 1).out
+
+
+def test_of_two_minds_a_bench_says_in_how_many_runs_each_breaks_a_promise(mindc: Call, dock: Path) -> None:
+    other = dock.with_name("other.mind")
+    other.write_text(MIND.replace("below 40%", "below 15%").replace("  maintains ahead > 40%\n", ""), encoding="utf-8")
+    found = bench(mindc, dock, other, "--runs", 3)
+    alone = [bench(mindc, path, "--runs", 3)["promises"] for path in (dock, other)]
+    assert [mind["promises"] for mind in found["minds"]] == alone
+    said = mindc("bench", dock, other, "--runs", 3).out.splitlines()
+    assert [line.split("  ")[0] for line in said if line.startswith("SeekDock")] == [
+        f"SeekDock {each['promise']}" for each in alone[0]
+    ]
+    broken = [f"{each[0]['broken_runs']} of 3" for each in alone]
+    assert re.split("  +", next(line for line in said if "requires" in line))[1:] == broken
+    assert next(line for line in said if "ahead" in line).endswith(" of 3       –")
+
+
+@pytest.mark.parametrize(("how", "key", "here"), [("--worlds", "worlds", "as taught"), ("--credit", "skills", "whole")])
+def test_where_a_promise_is_broken_in_most_runs_is_said(mindc: Call, dock: Path, how: str, key: str, here: str) -> None:
+    found, setup = bench(mindc, dock, "--runs", 14, how), prepared(MIND)
+    few = promises_in(setup.rollout(), "Feed", setup.layouts(1, 14), FEW_TICKS)
+    assert few[0]["runs"] == 13  # of 1,600 ticks
+    there = {row.get("world", row.get("skill")): row.get("minds", [row])[0]["promises"] for row in found[key]}
+    assert there.pop(here, found.get("promises")) == few
+    said = mindc("bench", dock, "--runs", 14, how).out.splitlines()
+    rows = said[next(place for place, line in enumerate(said) if line.startswith("promise broken in")) :]
+    assert here in rows[0]
+    for i, (each, row) in enumerate(zip(few, rows[1:], strict=True)):
+        others = {name: of[i]["broken_runs"] for name, of in there.items() if name != "SeekDock"}
+        most = max(others.values())
+        name, *cells = re.split("  +", row)
+        assert (name, cells[:2]) == (f"SeekDock {each['promise']}", [f"{each['broken_runs']} of 13", f"{most} of 13"])
+        assert cells[2:] == [*others][[*others.values()].index(most) :][: most > each["broken_runs"]]
+    assert max(map(len, rows)) <= 80

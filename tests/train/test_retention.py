@@ -1,7 +1,8 @@
-"""What a lesson leaves of earlier ones, which of its ticks brought nothing, and which of its masters decide nothing."""
+"""The end of a lesson: what it leaves of earlier ones, what brought or decides nothing, which promises it breaks."""
 
 import csv
 import json
+import re
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -15,12 +16,13 @@ from mindrun.train.scoring import Purpose, layouts
 
 from mindlang.compiler.compile import load
 from mindlang.lock.status import trained_weights
+from mindlang.training.broken_promises import broken_promises
 from mindlang.training.held_influence import held_influence
 from mindlang.training.retention import KEPT_LAYOUTS, TOLD_LAYOUTS, Retention
 from mindlang.training.standstill import idle_ticks, standstill
 from mindlang.training.subject import Subject, begin_run, open_subject
 from tests.calling import Call
-from tests.edits.taught import recorded, teach, write_mind
+from tests.edits.taught import MIND, recorded, teach, write_mind
 
 LOGS = Path(__file__).parents[2] / "examples" / "collect" / "scale_1" / "logs"
 AWAY = """
@@ -137,3 +139,22 @@ def test_a_master_that_decides_nothing_is_told_of(tmp_path: Path) -> None:
     [go] = [lesson for lesson in subject.graph.lessons if lesson.skill == "Go"]
     alone = begin_run(subject, go, 1, tmp_path / "runs", datetime.now(UTC), ())
     assert held_influence(alone, subject, run.weights["Go"]) == [], "it has no subskills"
+
+
+@pytest.mark.parametrize(
+    ("taught", "requires", "told"),
+    [("Go", "", True), ("Go", "  requires charge < 3%\n", False), ("Drive", "", False)],
+)
+def test_a_promise_that_a_taught_skill_breaks_itself_is_told_of(
+    tmp_path: Path, taught: str, requires: str, told: bool
+) -> None:
+    promises = "  maintains charge > 5%\n  maintains charge < 5%\n"
+    path = write_mind(tmp_path, MIND.replace("# to the ball\n", f"\n{requires}{promises}"))
+    teach(path)
+    subject = subject_of(path)
+    [lesson] = [each for each in subject.graph.lessons if each.skill == taught]
+    run = begin_run(subject, lesson, 1, tmp_path / "runs", datetime.now(UTC), ())
+    found = broken_promises(run, subject, run.weights[taught])
+    assert len(found) == told
+    for each in found:
+        assert re.match(r"Go breaks its own promise in (\d+) of \1 runs, maintains charge < 5%: ", each)
