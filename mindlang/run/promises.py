@@ -37,7 +37,8 @@ class PromiseCounts:
                 times[name] += (became == verdict).sum(axis=0)
             ticks += len(became)
         by_skill, is_broken = times["by_skill"] > 0, times["by_skill"] + times["by_influence"] > 0
-        times |= dict(zip(OF_RUNS, (self.watcher.acting, is_broken, by_skill), strict=True))
+        for name, each in zip(OF_RUNS, (self.watcher.acting, is_broken, by_skill), strict=True):
+            times[name] = each.astype(np.int64)
         for name, more in times.items():
             self._times[name] += more
         self.runs += 1

@@ -117,7 +117,7 @@ def test_the_page_says_what_was_broken_chosen_and_over_what(run: Viewed, browser
                 says = ["not judged", "held", "broken by it", "broken above it"][verdict]
                 judged = held + by_skill + above
                 assert line.startswith(f"{each['text']}: {says if judged else 'not judged yet'}")
-                assert (f"{above} above it" in line) == (above > 0)
+                assert (f"above it in {above}" in line) == (above > 0)
                 assert f"{judged} tick" in line or not judged
                 classes = mark.get_attribute("class").split()
                 assert ("held" in classes, "broken" in classes) == (verdict == HELD, verdict > HELD)

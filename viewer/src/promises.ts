@@ -15,8 +15,8 @@ const SIDE_PIXELS = 9; // free on both sides of a box
 export function inWords({ text, columns }: Promised, row: Row): string {
   const [now, held, bySkill, byAbove] = columns.map((column) => valueAt(row, column));
   const judged = held + bySkill + byAbove;
-  const broken = [bySkill && `${bySkill} by it`, byAbove && `${byAbove} above it`].filter(Boolean).join(", ");
-  const soFar = broken ? `so far ${broken} of ${judged} ticks` : `never broken in ${judged} tick${judged === 1 ? "" : "s"}`;
+  const broken = [bySkill && `by it in ${bySkill}`, byAbove && `above it in ${byAbove}`].filter(Boolean).join(", ");
+  const soFar = broken ? `so far broken ${broken} of ${judged} ticks` : `never broken in ${judged} tick${judged === 1 ? "" : "s"}`;
   return `${shown(text, PROMISE_CHARACTERS)}: ${judged ? `${VERDICTS[now]}; ${soFar}` : "not judged yet"}`;
 }
 
