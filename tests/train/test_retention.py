@@ -148,8 +148,9 @@ def test_a_master_that_decides_nothing_is_told_of(tmp_path: Path) -> None:
 def test_a_promise_that_a_taught_skill_breaks_itself_is_told_of(
     tmp_path: Path, taught: str, requires: str, told: bool
 ) -> None:
-    promises = "  maintains charge > 5%\n  maintains charge < 5%\n"
-    path = write_mind(tmp_path, MIND.replace("# to the ball\n", f"\n{requires}{promises}"))
+    text = MIND.replace("skill Drive is mlp hidden 2\n", "skill Drive is mlp hidden 2\n  maintains charge > 5%\n")
+    own = f"\n{requires}  maintains charge > 5%\n  maintains charge < 5%\n"
+    path = write_mind(tmp_path, text.replace("# to the ball\n", own))
     teach(path)
     subject = subject_of(path)
     [lesson] = [each for each in subject.graph.lessons if each.skill == taught]
