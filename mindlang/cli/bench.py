@@ -10,10 +10,10 @@ import click
 from mindrun.processors import cores
 
 from mindlang.cli import _options as options
-from mindlang.cli._terminal import MISUSE, fail, print_result, refuse_unwritable, write_file
+from mindlang.cli._terminal import MISUSE, fail, load_compiled, print_result, refuse_unwritable, write_file
 
 if TYPE_CHECKING:
-    from mindrun.graph.graph import Graph
+    from mindrun.graph.policy import Policy
     from mindrun.graph.run_scores import Scores
 
     from mindlang.cli._session import Prepared, Ran, RunSession
@@ -33,6 +33,7 @@ Examples:
   mindc bench collect.mind --task Avoid --master Avoid --master Collect
   mindc bench collect.mind best.mind --worlds --runs 100   weaker, noisier …
   mindc bench collect.mind --task Collect --credit         of each skill
+  mindc bench best.mind on_the_job.mind --credit           of what it learnt
   mindc bench collect.mind --runs 1000000 --on ssh:a,b     by two machines
   mindc bench collect.mind --runs 1000000 --on dask:scheduler.json
 """
@@ -50,7 +51,7 @@ Examples:
 @options.ON(help="Who makes the runs: processes:N, ssh:HOST,HOST …")
 @options.unless("--no-interruption", "interrupt", "Go on to the last tick, whatever would end a run.")
 @click.option("--worlds", is_flag=True, help="Run in changed worlds as well: denser, weaker, noisier, delayed …")
-@click.option("--credit", is_flag=True, help="Run without each skill as well: what is each worth?")
+@click.option("--credit", is_flag=True, help="Run without each skill as well, or as OTHER has it: what is it worth?")
 @options.written("--csv table", "PATH.csv", "Write a row for each run.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
@@ -68,7 +69,8 @@ def command(files: tuple[str, ...], masters: tuple[str, ...], workers: int | Non
     is that of what it is as taught.
 
     With --credit, on the same layouts again with each skill silent in turn: how much more the whole mind has, with a
-    confidence interval, the greatest credit first.
+    confidence interval, the greatest credit first. With OTHER, such as what a mind was before its last lesson, each
+    skill is not silent but has the weights that it has there.
     """
     from mindlang.cli._session import RunSession
 
@@ -112,6 +114,14 @@ def contenders(files: Sequence[str], masters: Sequence[str]) -> list[Contender]:
     if len({*names}) < count:
         names = [f"{name} ({place})" for name, place in zip(names, "AB", strict=True)]
     return [Contender(*each, name) for each, name in zip(both, names, strict=True)]
+
+
+def learnt(file: str) -> "Policy":
+    """What the skills of a mind have learnt."""
+    from mindlang.lock.status import make_ready
+
+    compiled = load_compiled(file)
+    return make_ready(compiled.whole[1], compiled.sources).policy
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,22 +210,26 @@ class Bench:
         print_result(self.as_json, data, lambda: worlds_summary(data))
 
     def credit(self, who: Sequence[Contender]) -> None:
-        """Run a mind whole, then with each of its skills silent on the same layouts, and print what each is worth."""
-        if len(who) > 1:
-            fail("Credit is given to the skills of one mind.", "mindc bench FILE --credit", MISUSE)
-        from mindrun.graph.skill_sets import reachable
+        """Run a mind whole, then without each of its skills on the same layouts, and print what each is worth.
 
-        from mindlang.run.credit import WHOLE, credit_of, without
+        With another mind the skills are not silent in turn, but have the weights that they have there.
+        """
+        if len({each.file for each in who}) < len(who):
+            fail("Credit is given under one master.", "mindc bench FILE --credit", MISUSE)
+        from mindlang.run.credit import WHOLE, credit_of, given_back, silenced
         from mindlang.run.paired_difference import CONFIDENCE_LEVEL
         from mindlang.run.summary import credit_summary
         from mindlang.run.tables import joined, runs_table
         from mindlang.run.worlds import figure
 
         whole = self._prepared(who[0], self.task)
-        setup, graph = whole.setup, whole.setup.ready.policy.graph
+        setup, policy = whole.setup, whole.setup.ready.policy
         task, seeds = setup.task, setup.layouts(self.seed, self.runs)
-        names = [skill.name for skill in reachable(graph, setup.master)]
-        cast = {WHOLE: whole} | {name: self._elsewhere(whole, without(graph, name)) for name in names}
+        if len(who) == 1:
+            minds = silenced(policy, setup.master)
+        elif not (minds := given_back(policy, learnt(who[1].file), setup.master)):
+            fail(f"No skill of {setup.master} in {who[0].file} has other weights in {who[1].file}.", code=MISUSE)
+        cast = {WHOLE: whole} | {name: self._elsewhere(whole, each) for name, each in minds.items()}
         scores: dict[str, Scores] = {}
         data: dict[str, dict[str, Any]] = {}
         with self.session.counting(f"{task.name} without each skill", len(seeds) * len(cast)) as ran:
@@ -223,12 +237,13 @@ class Bench:
                 scores[name], data[name] = self._score(each, seeds, f"without {name}: " if name else "", ran)
         figured = figure(data[WHOLE])[0]
         credited = credit_of(task, scores, figured)
+        left = "without" if len(who) == 1 else f"as in {who[1].file}"
         found = {"task": task.name, "master": setup.master, "seed": self.seed, **self._by(), **data[WHOLE]}
-        found |= {"figure": figured, "confidence": CONFIDENCE_LEVEL}
+        found |= {"figure": figured, "confidence": CONFIDENCE_LEVEL, "left": left}
         found |= {"skills": [{"skill": name, **data[name], "credit": asdict(each)} for name, each in credited.items()]}
         if self.table:
             rows = {name: runs_table(task, each, seeds) for name, each in scores.items()}
-            self._write(self.table, joined(rows, "without"), f"{len(cast)} × {len(seeds):,} runs")
+            self._write(self.table, joined(rows, left), f"{len(cast)} × {len(seeds):,} runs")
         print_result(self.as_json, found, lambda: credit_summary(found, credited))
 
     def _worlds(self, here: "Prepared") -> "Iterator[tuple[World, Prepared, list[int]]]":
@@ -237,12 +252,12 @@ class Bench:
 
         setup = here.setup
         for world in worlds(setup.ready.policy.graph, setup.task, setup.master):
-            there = self._elsewhere(here, world.graph)
+            there = self._elsewhere(here, replace(setup.ready.policy, graph=world.graph))
             yield world, there, there.setup.layouts(self.seed, self.runs)
 
-    def _elsewhere(self, here: "Prepared", graph: "Graph") -> "Prepared":
-        """A mind that is prepared, with another graph in the place of its own, and the simulator for that."""
-        setup, quiet = here.setup.in_world(graph), replace(self.session, quiet=True)
+    def _elsewhere(self, here: "Prepared", policy: "Policy") -> "Prepared":
+        """A mind that is prepared, with another policy in the place of its own, and the simulator for that."""
+        setup, quiet = here.setup.with_policy(policy), replace(self.session, quiet=True)
         return here._replace(setup=setup, rollout=quiet.simulator(setup, self.interrupt, self.workers, self.runs))
 
     def _prepared(self, who: Contender, task: str | None) -> "Prepared":

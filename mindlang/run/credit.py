@@ -1,17 +1,35 @@
-"""The credit of a skill: what a whole mind comes to, less what it comes to without the skill on the same layouts."""
+"""The credit of a skill, or of what it learnt: what a whole mind comes to, less what it comes to without that."""
 
 from collections.abc import Mapping
 from dataclasses import replace
 from math import inf
 
 from mindrun.graph.graph import Gate, Graph, Task
+from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores
+from mindrun.graph.skill_sets import reachable
 
 from mindlang.run.comparison import Benched
 from mindlang.run.paired_difference import PairedDifference, difference
 
 NEVER = (("number", 0.0), ("number", 0.0), ("<", 0))  # a condition that does not hold
 WHOLE = ""  # the name of what is left out of the whole mind
+
+
+def silenced(policy: Policy, master: str) -> dict[str, Policy]:
+    """The mind with each skill under a master silent in turn."""
+    graph = policy.graph
+    return {each.name: replace(policy, graph=without(graph, each.name)) for each in reachable(graph, master)}
+
+
+def given_back(policy: Policy, earlier: Policy, master: str) -> dict[str, Policy]:
+    """The mind with the weights that each skill under a master has in another mind, in turn.
+
+    Left out is a skill that has the same weights there, none, or weights of something else.
+    """
+    names = [each.name for each in reachable(policy.graph, master) if policy.agrees(earlier, each.name)]
+    minds = {name: replace(policy, weights={**policy.weights, name: earlier.weights[name]}) for name in names}
+    return {name: mind for name, mind in minds.items() if (mind.weights[name] != policy.weights[name]).any()}
 
 
 def without(graph: Graph, name: str) -> Graph:

@@ -7,7 +7,8 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
-from mindrun.graph.graph import Graph, Task
+from mindrun.graph.graph import Task
+from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores
 from mindrun.graph.skill_sets import owners, reachable
 from mindrun.graph.tasks import is_one_world
@@ -56,10 +57,10 @@ class RunSetup:
         """Notes for the user on runs that have been made."""
         return [*self.ready.notes, *self.world_notes, *rollout.notes, *more]
 
-    def in_world(self, graph: Graph) -> "RunSetup":
-        """This mind with its weights in the task as another graph has it, of the same skills."""
-        task = next(each for each in graph.tasks if each.name == self.task.name)
-        return replace(self, task=task, ready=replace(self.ready, policy=replace(self.ready.policy, graph=graph)))
+    def with_policy(self, policy: Policy) -> "RunSetup":
+        """The task as a policy of the same skills has it, with that policy in the place of this one."""
+        task = next(each for each in policy.graph.tasks if each.name == self.task.name)
+        return replace(self, task=task, ready=replace(self.ready, policy=policy))
 
     def rollout(self, interrupt: bool = True, workers: int = 1) -> "Rollout":
         """The task under the master, in the simulator. Runs the text of the procedures' modules."""

@@ -287,9 +287,9 @@ def _world_row(row: dict[str, Any], minds: Sequence[str]) -> Iterator[str | Text
 
 
 def credit_summary(found: dict[str, Any], credited: Mapping[str, PairedDifference]) -> RenderableType:
-    """A row for each skill: the figure without it, and how much more the whole mind has, with its interval."""
+    """A row for each skill: the figure without what it is or learnt, and how much more the whole mind has."""
     name, runs = found["figure"], found["runs"]
-    head = "without", "mean", "credit", f"{PERCENT} confidence"
+    head = found["left"], "mean", "credit", f"{PERCENT} confidence"
     means = {each["skill"]: _figure(*figure(each)[:2]) for each in found["skills"]}
     rows = [(skill, means[skill], *_difference(name, each)) for skill, each in credited.items()]
     return Group(

@@ -11,7 +11,9 @@ from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
 from mindrun.kinds.functions.elman import Elman
+from mindrun.kinds.functions.function import NetworkFunction
 from mindrun.kinds.functions.gru import Gru
+from mindrun.kinds.functions.mlp import Mlp
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
@@ -56,6 +58,14 @@ def mind(text: str = MIND) -> Graph:
 
 RECURRENT = {"elman": MIND, "gru": MIND.replace("is elman", "is gru")}
 both = pytest.mark.parametrize("text", RECURRENT.values(), ids=RECURRENT)
+
+
+@pytest.mark.parametrize("function", [Mlp(hidden=2), Elman(width=5), Gru(width=5)], ids=["mlp", "elman", "gru"])
+def test_outputs_begin_about_a_half(function: NetworkFunction) -> None:
+    before, after = function.matrix_shapes(7, 3)[-1]
+    last = function.draw(7, 3, 20, np.random.default_rng(1))[:, -before * after :].reshape(20, after, before)
+    np.testing.assert_allclose(last.sum(axis=2), 1, atol=1e-4)  # so that neurons of 1/2 make it 1/2
+    assert last.std() > 1
 
 
 def drawn(graph: Graph, seed: int, count: int = 1) -> np.ndarray:

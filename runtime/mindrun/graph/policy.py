@@ -36,6 +36,13 @@ class Policy(ShortRepr):
                     raise WeightsError(f"the weights of {name} belong to a graph that reads and sends in another order")
         object.__setattr__(self, "weights", ordered)
 
+    def agrees(self, other: "Policy", skill: str) -> bool:
+        """True if both have weights of a skill, of the same readings and influences in the same order."""
+        mine, theirs = self.weights, other.weights
+        assert isinstance(mine, _Ordered)
+        assert isinstance(theirs, _Ordered)
+        return skill in mine and mine.orders[skill] == theirs.orders.get(skill)
+
 
 class _Ordered(dict[str, Weights]):
     """The weights of a policy: wherever they go, they know what they read and send, and in which order."""
