@@ -105,12 +105,18 @@ def _broken_by_both(minds: Sequence[dict[str, Any]]) -> Iterator[RenderableType]
         yield ""
 
 
-def _broken_elsewhere(heads: tuple[str, str, str], minds: Sequence[Elsewhere]) -> Iterator[RenderableType]:
-    """A row for each promise of minds: in how many runs it was broken here, and there where it was in most."""
+def _broken_elsewhere(
+    heads: tuple[str, str, str], minds: Sequence[Elsewhere], is_silent: bool = False
+) -> Iterator[RenderableType]:
+    """A row for each promise of minds: in how many runs it was broken here, and there where it was in most.
+
+    Where a skill `is_silent` there, what it promises itself is left out.
+    """
     rows = [("", *heads)]
     for name, here, there in minds:
         for i, promise in enumerate(here):
-            others = {where: promises[i] for where, promises in there.items() if where != promise["skill"]}
+            silent = promise["skill"] if is_silent else None
+            others = {where: promises[i] for where, promises in there.items() if where != silent}
             share = {where: each["broken_runs"] / each["runs"] for where, each in others.items()}
             worst = max(share, key=share.__getitem__, default="")
             is_worse = share.get(worst, 0) > promise["broken_runs"] / promise["runs"]
@@ -288,7 +294,7 @@ def _world_row(row: dict[str, Any], minds: Sequence[str]) -> Iterator[str | Text
 
 def credit_summary(found: dict[str, Any], credited: Mapping[str, PairedDifference]) -> RenderableType:
     """A row for each skill: the figure without what it is or learnt, and how much more the whole mind has."""
-    name, runs = found["figure"], found["runs"]
+    name, runs, is_silent = found["figure"], found["runs"], found["left"] == "without"
     head = found["left"], "mean", "credit", f"{PERCENT} confidence"
     means = {each["skill"]: _figure(*figure(each)[:2]) for each in found["skills"]}
     rows = [(skill, means[skill], *_difference(name, each)) for skill, each in credited.items()]
@@ -300,8 +306,9 @@ def credit_summary(found: dict[str, Any], credited: Mapping[str, PairedDifferenc
         "",
         Text("credit: how much more the whole mind has, on the same layouts", "dim"),
         *_broken_elsewhere(
-            ("whole", "at worst", "without"),
+            ("whole", "at worst", "without" if is_silent else "as there"),
             [("", found.get("promises", ()), {each["skill"]: each.get("promises", ()) for each in found["skills"]})],
+            is_silent,
         ),
     )
 
