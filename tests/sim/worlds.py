@@ -1,13 +1,26 @@
 """Hypothesis strategies for whole worlds: any hierarchy in any body, among anything, judged in any way."""
 
 from dataclasses import fields, replace
-from itertools import permutations, product
+from itertools import islice, permutations, product, takewhile
 from math import pi
 from typing import Any, get_args
 
 from hypothesis import strategies as st
 from mindrun.graph.draws import Draw
-from mindrun.graph.graph import Actuator, End, Failure, Graph, Lesson, Program, Reward, Start, Task, Thing, Variation
+from mindrun.graph.graph import (
+    Actuator,
+    End,
+    Failure,
+    Graph,
+    Lesson,
+    Program,
+    Reward,
+    Sensor,
+    Start,
+    Task,
+    Thing,
+    Variation,
+)
 from mindrun.graph.weights import genes
 from mindrun.kinds.actuators.actuator import Gripper, Lamp, Motor, Servo, Steering, Thruster, Wheel
 from mindrun.kinds.bodies.body import Box, Car, Disc, Holonomic
@@ -16,6 +29,7 @@ from mindrun.kinds.learners import Learner
 from mindrun.kinds.measures.measure import Advance, Apart, CommandChange, Forward, MeasureKind, Progress, Retreat
 from mindrun.kinds.registry import arguments, kinds
 from mindrun.kinds.scenes.scene import Arena, Plain, SceneKind
+from mindrun.kinds.things.about import OR
 from mindrun.kinds.things.map import Map
 from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.kinds.things.thing import Ball, Item, LooseBox, Power, Zone
@@ -27,6 +41,10 @@ from tests.hierarchies import combined, conditions, on_servos, random_graph
 
 SIZES = st.sampled_from([Span(1.0, 1.0), Span(2.0, 5.0), Span(4.0, 1.0, 0.75), Span(1.0, 3.0, 0.75)])
 WIDE = st.sampled_from([Span(8.0, 8.0), Span(4.0, 12.0), Span(14.0, 6.0, 2.0)])
+APART = [
+    ("object", Item, SIZES), ("home", Zone, WIDE), ("coin", Item, SIZES), ("plug", Power, WIDE), ("den", Zone, WIDE),
+    ("crate", LooseBox, SIZES), ("ball", Ball, SIZES), ("cat", Walker, SIZES),
+]  # fmt: skip
 AWAY = st.sampled_from([Span(-1.0, -1.0), Span(0.0, 3.0), Span(0.0, 6.0), Span(2.0, 12.0)])
 PLACES = st.tuples(st.sampled_from([-6.0, 0.0, 4.5]), st.sampled_from([-4.0, 0.5, 3.0]))
 WAYS = [((-9.0, -5.0), (-2.0, -5.0)), ((6.0, 6.0), (6.0, -3.0), (9.5, -3.0)), ((3.0, 7.0), (-3.0, 7.0))]
@@ -114,6 +132,7 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
     scene: SceneKind = draw(st.sampled_from([Plain(), Arena(20.0), Arena(33.0), Arena((26.0, 15.0))]))
     draws = tuple(draw(st.lists(DRAWS, max_size=2, unique_by=lambda drawn: drawn.name)))
     things = draw(_things(scene, draws))
+    graph = replace(graph, sensors=tuple(draw(_about_several(each, things)) for each in graph.sensors))
     measures, events = draw(_measures(things)), draw(_events(scene, things))
     rewards = tuple(
         draw(_rewards(graph, len(measures), len(events), len(draws))) for _ in range(draw(st.integers(1, 4)))
@@ -136,6 +155,21 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
     )
     task = replace(task, varies=draw(_variations(graph, task)), fails=draw(_failures(graph)))
     return replace(graph, tasks=(task,), lessons=tuple(draw(_lessons(graph))))
+
+
+@st.composite
+def _about_several(draw: st.DrawFn, sensor: Sensor, things: tuple[Thing, ...]) -> Sensor:
+    """A sensor, now and then about several things that stand one after the other, and about some that are not there."""
+    kind: Any = sensor.kind
+    apart = [thing for thing in things if not thing.kind.is_obstacle]
+    fitting = {thing.name for thing in apart if kind.is_about(type(thing.kind))}
+    absent = sorted({name for name, _, _ in APART}.difference(thing.name for thing in apart))
+    if kind.thing not in fitting.union(absent) or draw(st.booleans()):
+        return sensor
+    standing = (thing.name for thing in apart[draw(st.integers(0, len(apart))) :])
+    several = [*islice(takewhile(fitting.__contains__, standing), draw(st.integers(1, 4)))]
+    several += draw(st.lists(st.sampled_from(absent), unique=True, max_size=2)) if absent else []
+    return replace(sensor, kind=replace(kind, of=OR.join(draw(st.permutations(several or [kind.thing])))))
 
 
 @st.composite
@@ -199,16 +233,7 @@ def _goings(draw: st.DrawFn, placed: dict[str, Any], names: list[str]) -> dict[s
 def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...]) -> tuple[Thing, ...]:
     """Items, zones and powers, some of them not there; obstacles on a grid or loose."""
     things: list[Thing] = []
-    for name, kind, size in (
-        ("object", Item, SIZES),
-        ("home", Zone, WIDE),
-        ("coin", Item, SIZES),
-        ("plug", Power, WIDE),
-        ("den", Zone, WIDE),
-        ("crate", LooseBox, SIZES),
-        ("ball", Ball, SIZES),
-        ("cat", Walker, SIZES),
-    ):
+    for name, kind, size in APART:
         if draw(st.integers(0, 2)):
             outcomes = {field.name: draw(OUTCOMES) for field in fields(kind) if field.name in ("reached", "delivered")}
             own = {"density": DENSITY, "friction": FRICTION, "damping": DAMPING} if kind.is_loose else {}
