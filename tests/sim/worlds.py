@@ -1,26 +1,13 @@
 """Hypothesis strategies for whole worlds: any hierarchy in any body, among anything, judged in any way."""
 
 from dataclasses import fields, replace
-from itertools import islice, permutations, product, takewhile
+from itertools import permutations, product
 from math import pi
 from typing import Any, get_args
 
 from hypothesis import strategies as st
 from mindrun.graph.draws import Draw
-from mindrun.graph.graph import (
-    Actuator,
-    End,
-    Failure,
-    Graph,
-    Lesson,
-    Program,
-    Reward,
-    Sensor,
-    Start,
-    Task,
-    Thing,
-    Variation,
-)
+from mindrun.graph.graph import Actuator, End, Failure, Graph, Lesson, Program, Reward, Start, Task, Thing, Variation
 from mindrun.graph.weights import genes
 from mindrun.kinds.actuators.actuator import Gripper, Lamp, Motor, Servo, Steering, Thruster, Wheel
 from mindrun.kinds.bodies.body import Box, Car, Disc, Holonomic
@@ -29,7 +16,6 @@ from mindrun.kinds.learners import Learner
 from mindrun.kinds.measures.measure import Advance, Apart, CommandChange, Forward, MeasureKind, Progress, Retreat
 from mindrun.kinds.registry import arguments, kinds
 from mindrun.kinds.scenes.scene import Arena, Plain, SceneKind
-from mindrun.kinds.things.about import OR
 from mindrun.kinds.things.map import Map
 from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.kinds.things.thing import Ball, Item, LooseBox, Power, Zone
@@ -132,7 +118,7 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
     scene: SceneKind = draw(st.sampled_from([Plain(), Arena(20.0), Arena(33.0), Arena((26.0, 15.0))]))
     draws = tuple(draw(st.lists(DRAWS, max_size=2, unique_by=lambda drawn: drawn.name)))
     things = draw(_things(scene, draws))
-    graph = replace(graph, sensors=tuple(draw(_about_several(each, things)) for each in graph.sensors))
+    graph = draw(_about_several(graph, things))
     measures, events = draw(_measures(things)), draw(_events(scene, things))
     rewards = tuple(
         draw(_rewards(graph, len(measures), len(events), len(draws))) for _ in range(draw(st.integers(1, 4)))
@@ -158,18 +144,21 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
 
 
 @st.composite
-def _about_several(draw: st.DrawFn, sensor: Sensor, things: tuple[Thing, ...]) -> Sensor:
-    """A sensor, now and then about several things that stand one after the other, and about some that are not there."""
-    kind: Any = sensor.kind
-    apart = [thing for thing in things if not thing.kind.is_obstacle]
-    fitting = {thing.name for thing in apart if kind.is_about(type(thing.kind))}
+def _about_several(draw: st.DrawFn, graph: Graph, things: tuple[Thing, ...]) -> Graph:
+    """A graph some of whose sensors are about several things that stand side by side, and some that are not there."""
+    apart, sensors = [thing for thing in things if not thing.kind.is_obstacle], []
     absent = sorted({name for name, _, _ in APART}.difference(thing.name for thing in apart))
-    if kind.thing not in fitting.union(absent) or draw(st.booleans()):
-        return sensor
-    standing = (thing.name for thing in apart[draw(st.integers(0, len(apart))) :])
-    several = [*islice(takewhile(fitting.__contains__, standing), draw(st.integers(1, 4)))]
-    several += draw(st.lists(st.sampled_from(absent), unique=True, max_size=2)) if absent else []
-    return replace(sensor, kind=replace(kind, of=OR.join(draw(st.permutations(several or [kind.thing])))))
+    for sensor in graph.sensors:
+        kind: Any = sensor.kind
+        fits = {thing.name: kind.is_about(type(thing.kind)) for thing in apart} | dict.fromkeys(absent, True)
+        if fits.get(kind.thing) and draw(st.booleans()):
+            first, most = draw(st.integers(0, len(apart))), draw(st.integers(1, 4))
+            standing = [thing.name for thing in apart[first : first + most]]
+            several = standing[: next((k for k, name in enumerate(standing) if not fits[name]), most)]
+            several += draw(st.lists(st.sampled_from(absent), unique=True, max_size=2)) if absent else []
+            kind = replace(kind, of=" or ".join(draw(st.permutations(several or [kind.thing]))))
+        sensors.append(replace(sensor, kind=kind))
+    return replace(graph, sensors=tuple(sensors))
 
 
 @st.composite
