@@ -280,6 +280,7 @@ ROOMS = {
             ),
             *(f"mindlang/{name}.py" for name in ("lint/intervals", "run/paired_difference", "robot/claims")),
             *(f"mindlang/lint/rules/{name}.py" for name in ("zero_division", "direction_as_number", "coarse_tick")),
+            *(f"mindlang/lint/rules/{name}.py" for name in ("unsaid_thrust", "unsaid_range")),
         ),
         (
             "tests/run/test_paired_difference.py",

@@ -46,7 +46,7 @@ def kind_article(of: str, name: str) -> Article:
         f"kind of {noun}",
         _SAID[noun][1],
         more.title if more else "",
-        "\n\n".join(_texts(cls)),
+        "\n\n".join(filter(None, _texts(cls))),
         tuple(parameter(each, _purpose(noun, name, each.key)) for each in arguments(cls)),
         more.scale if more else {},
         right=more.labelled("mind") if more else (),

@@ -1,8 +1,10 @@
 """The text of a map, as `contains walls is map` reads it, and what was done to get there."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
-from mindrun.errors import MindError
+from mindrun.errors import MindError, reason
+from mindrun.files.regular_files import read_whole
 from mindrun.kinds.things.map import FLOOR, MAX_MAP_CELLS, START, WALL, Map
 from mindrun.kinds.things.thing import MAX_OBSTACLES
 
@@ -11,6 +13,14 @@ METRE_CM = 100.0
 
 class MapError(MindError):
     """A file of which no map can be made."""
+
+
+def data_of(path: Path, most: int, hint: str = "") -> bytes:
+    """All of a file of at most so many bytes; MapError says why it cannot be read."""
+    try:
+        return read_whole(path, most)
+    except (OSError, ValueError) as error:  # a name of a file cannot be any text
+        raise MapError(f"{path} cannot be read: {reason(error)}.", hint) from error
 
 
 @dataclass(frozen=True, slots=True)

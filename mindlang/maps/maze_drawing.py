@@ -5,12 +5,10 @@ from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 
-from mindrun.errors import reason
-from mindrun.files.regular_files import read_regular
 from mindrun.kinds.things.map import FLOOR, WALL
 
 from mindlang.compiler.source import MAX_SOURCE_BYTES, decode_source
-from mindlang.maps.map_text import METRE_CM, MapError, MapText
+from mindlang.maps.map_text import METRE_CM, MapError, MapText, data_of
 
 POSTS, GAP = "+o", " "
 CLASSIC_CELLS = 16  # along a side of a maze whose cells are 18 cm wide; those of a larger one are half as wide
@@ -23,9 +21,7 @@ Cell = tuple[int, int]  # its row and its column
 def read_maze(path: Path) -> MapText:
     """The maze that is drawn in a text file; MapError says which character is none of one."""
     try:
-        text = decode_source(read_regular(path, MAX_SOURCE_BYTES + 1))
-    except OSError as error:
-        raise MapError(f"{path} cannot be read: {reason(error)}.") from error
+        text = decode_source(data_of(path, MAX_SOURCE_BYTES))
     except ValueError as error:
         raise MapError(f"{path} {error}.", FORM) from error
     drawing = _drawing(path, text)

@@ -7,13 +7,11 @@ from typing import Annotated, Literal
 
 import numpy as np
 import yaml
-from mindrun.errors import reason
-from mindrun.files.regular_files import read_whole
 from mindrun.kinds.things.map import FLOOR, WALL
 from msgspec import Meta, Struct, ValidationError, convert
 from numpy.typing import NDArray
 
-from mindlang.maps.map_text import METRE_CM, MapError, MapText
+from mindlang.maps.map_text import METRE_CM, MapError, MapText, data_of
 
 MAX_YAML_BYTES = 64 << 10
 MAX_IMAGE_BYTES = 64 << 20
@@ -56,9 +54,7 @@ def read_ros_map(path: Path) -> MapText:
 
 def _yaml(path: Path) -> RosMap:
     try:
-        return convert(yaml.safe_load(read_whole(path, MAX_YAML_BYTES)), RosMap, strict=False)
-    except OSError as error:
-        raise MapError(f"{path} cannot be read: {reason(error)}.") from error
+        return convert(yaml.safe_load(data_of(path, MAX_YAML_BYTES)), RosMap, strict=False)
     except ValidationError as error:
         raise MapError(f"{path} is no map of ROS: {error}.", FORM) from error
     except (yaml.YAMLError, ValueError, RecursionError, OverflowError) as error:
@@ -67,11 +63,7 @@ def _yaml(path: Path) -> RosMap:
 
 def _brightness(path: Path) -> NDArray[np.float32]:
     """The brightness of each pixel, 0 to 1, the first row on top; its size is asked before anything is decoded."""
-    try:
-        data = read_whole(path, MAX_IMAGE_BYTES)
-    except (OSError, RuntimeError) as error:
-        hint = "Its path is relative to the YAML file."
-        raise MapError(f"The picture {path} cannot be read: {reason(error)}.", hint) from error
+    data = data_of(path, MAX_IMAGE_BYTES, "The path of a picture is relative to the YAML file.")
     pgm, png = PGM.match(data), PNG.match(data)
     if not (found := pgm or png):
         raise MapError(f"{path} is no picture of a map.", "Convert it into PGM or PNG.")

@@ -137,6 +137,7 @@ WRONG = {
     "free_thresh is above": as_yaml(YAML.format("hall.pgm").replace("0.65", "0.1")),
     "invalid|Invalid": as_yaml(YAML.format("hall.pgm") + "mode: raw\n"),
     "gone.pgm cannot be read: No such file": as_yaml(YAML.format("gone.pgm")),
+    "cannot be read: embedded null byte": as_yaml(YAML.format('"a\\0b.pgm"')),
     "no pixel of hall.pgm is free": as_yaml(YAML.format("hall.pgm").replace("negate: 0", "negate: 1")),
     "60000 x 60000 pixels": as_picture(BOMB, "hall.png"),
     "100000 x 100000 pixels": as_picture(b"P5 100000 100000 255\n"),

@@ -126,3 +126,56 @@ def test_a_tick_that_is_too_long(told: Tell) -> None:
     assert told("coarse-tick", fast[:at]) == []
     [(_, moves, _)] = told("coarse-tick", fast[:at] + short)
     assert "in a tick of Short" in moves
+
+
+WHEEL = " is wheel side {} neutral 0.5{}\n"
+ROOM = "task Room in {}\n  lasts 9 s\n  rewards forward per tick\n"
+
+
+def robot(size: str, left: str = "", right: str = "", scene: str = "plain") -> str:
+    """A robot of a size whose wheels say so much, in a world."""
+    wheels = f"actuator left{WHEEL.format('left', left)}actuator right{WHEEL.format('right', right)}"
+    skill = "skill Go is rule\n  drives left at 1\n  drives right at 1\n"
+    return f"tick 1/60 s\nbody Robot is disc size {size}\n{wheels}{skill}{ROOM.format(scene)}"
+
+
+def test_a_thrust_that_nobody_says(told: Tell) -> None:
+    with_80 = "units a second, {} times its length, with a thrust of 80 that nobody says."
+    assert told("unsaid-thrust", robot("0.2")) == [
+        ("left", f"At full thrust Robot goes 509 {with_80.format(2500)}", ADD.format("0.063")),
+    ]
+    assert told("unsaid-thrust", robot("12")) == [
+        ("left", f"At full thrust Robot goes 0.141 {with_80.format('0.012')}", ADD.format("14000")),
+    ]
+    [(_, _, hint)] = told("unsaid-thrust", robot("60"))
+    assert (
+        hint == "No thrust is that large: write lengths in a larger unit, such as 0.2 in metres for 200 in millimetres."
+    )
+    for fine in (robot("0.2", " thrust 80"), robot("0.2", "", " thrust 80"), robot("1.3"), robot("4")):
+        assert told("unsaid-thrust", fine) == []
+    assert told("unsaid-thrust", robot("0.2") + "  varies thrust of left 60 to 90\n") == []
+    assert told("unsaid-thrust", robot("0.2").split("task")[0]) == []
+
+
+ADD = "Add thrust {} to left and right: 2 times its length a second."
+
+
+@pytest.mark.parametrize(
+    ("sensor", "scene", "most"),
+    [
+        ("position along y", "arena size 4 19", "9.5"),
+        ("position along y", "arena size 4 20", ""),
+        ("position along y range 50", "arena size 4", ""),
+        ("position along y", "plain", ""),
+        ("range_finder at 0 deg", "arena size 1.2 0.9", "1.5"),
+        ("range_finder at 0 deg", "arena size 4", ""),
+        ("odometer side left", "arena size 4", "0.4"),
+        ("bumper at 0 deg", "arena size 1", ""),
+    ],
+)
+def test_a_range_that_nobody_says(told: Tell, sensor: str, scene: str, most: str) -> None:
+    mind = robot("0.2", " thrust 0.063", " thrust 0.063", scene) + f"sensor it is {sensor}\n"
+    hints = [f"Add range {most}: it reads its whole 0 to 1 then."] if most else []
+    assert [hint for _, _, hint in told("unsaid-range", mind)] == hints
+    larger = f"{mind}task Hall in arena size 100\n  lasts 9 s\n  rewards forward per tick\n"
+    assert "odometer" in sensor or told("unsaid-range", larger) == []

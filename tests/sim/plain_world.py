@@ -84,8 +84,8 @@ class PlainWorld:
     def true(self, sensor):
         """A physical sensor's readings as they are: a list of (least, most), and what is read where one is lost."""
         kind = sensor.kind
-        all_of = [i for i, thing in enumerate(self.things) if thing.name == getattr(kind, "of", None)]
-        boxes = self.boxes_of(getattr(kind, "of", None))
+        all_of = [i for i, thing in enumerate(self.things) if thing.name in kind.things]
+        boxes = [box for name in kind.things for box in self.boxes_of(name)]
         match kind:
             case RangeFinder():
                 return [self.ray(self.looks(kind) + at, kind) for at in kind.at], 1.0

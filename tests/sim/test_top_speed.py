@@ -1,4 +1,4 @@
-"""The top speed that `coarse-tick` tells is the one that a robot reaches."""
+"""The top speed that `coarse-tick` tells is the one that a robot reaches, and that `unsaid-thrust` proposes."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -10,6 +10,9 @@ from mindrun.sim.lanes.solid import MOST_STRIDES, STRIDE_SHARE
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
+from mindlang.compiler.compile import load
+from mindlang.compiler.splice import spliced
+from mindlang.lint.lint import lint
 from mindlang.lint.top_speed import step_of
 from tests.calling import Call
 from tests.sim.minds import compile_text
@@ -59,6 +62,35 @@ def test_it_is_what_a_robot_reaches(body: str, actuators: str, other: float, tic
     assert moved == pytest.approx(step_of(graph, graph.tasks[0]), rel=0.01)
     twice = replace(graph, tick=graph.tick / 2)
     assert step_of(twice, graph.tasks[0]) < step_of(graph, graph.tasks[0])
+
+
+SILENT = "actuator one is {0} neutral 0.5\nactuator other is {1} neutral 0.5"
+
+
+@pytest.mark.parametrize(
+    ("body", "drives", "other"),
+    [
+        ("disc size 0.2", ("wheel side left", "wheel side right"), 1),
+        ("disc size 60 density 0.1", ("wheel side left", "wheel side right"), 1),
+        ("box size 0.5 0.1 linear_damping 2", ("thruster at 0 0", "thruster facing 0 deg"), 1),
+        ("car size 30 20", ("motor", "steering"), 0.5),
+        ("holonomic size 0.02", ("thruster facing 80 deg", "thruster facing 130 deg at 0.01 0"), 1),
+    ],
+)
+def test_the_thrust_that_is_proposed_takes_a_body_twice_its_length_a_second(
+    body: str, drives: tuple[str, str], other: float, tmp_path: Path
+) -> None:
+    text = MIND.format(tick="1/50", body=body, actuators=SILENT.format(*drives), other=other, ticks=600, varies="")
+    (path := tmp_path / "silent.mind").write_text(text.strip() + "\n")
+    [found] = lint(load(path), ["unsaid-thrust"])
+    assert found.fix
+    path.write_text(spliced(found.fix.splices[0].source, found.fix.splices))
+    graph = load(path).graph
+    assert graph
+    assert lint(load(path), ["unsaid-thrust"]) == []
+    places = np.array([moment.body[:2] for moment in trace(Rollout(Policy(graph, {}), "World", "Go"), 1).moments])
+    speeds = np.hypot(*np.diff(places, axis=0).T) * 50
+    assert speeds.max() == pytest.approx(2 * 2 * graph.body.front, rel=0.1)
 
 
 def test_check_says_whose_tick_is_not_simulated_whole(mindc: Call, tmp_path: Path) -> None:

@@ -27,6 +27,10 @@ from tests.hierarchies import combined, conditions, on_servos, random_graph
 
 SIZES = st.sampled_from([Span(1.0, 1.0), Span(2.0, 5.0), Span(4.0, 1.0, 0.75), Span(1.0, 3.0, 0.75)])
 WIDE = st.sampled_from([Span(8.0, 8.0), Span(4.0, 12.0), Span(14.0, 6.0, 2.0)])
+APART = [
+    ("object", Item, SIZES), ("home", Zone, WIDE), ("coin", Item, SIZES), ("plug", Power, WIDE), ("den", Zone, WIDE),
+    ("crate", LooseBox, SIZES), ("ball", Ball, SIZES), ("cat", Walker, SIZES),
+]  # fmt: skip
 AWAY = st.sampled_from([Span(-1.0, -1.0), Span(0.0, 3.0), Span(0.0, 6.0), Span(2.0, 12.0)])
 PLACES = st.tuples(st.sampled_from([-6.0, 0.0, 4.5]), st.sampled_from([-4.0, 0.5, 3.0]))
 WAYS = [((-9.0, -5.0), (-2.0, -5.0)), ((6.0, 6.0), (6.0, -3.0), (9.5, -3.0)), ((3.0, 7.0), (-3.0, 7.0))]
@@ -114,6 +118,7 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
     scene: SceneKind = draw(st.sampled_from([Plain(), Arena(20.0), Arena(33.0), Arena((26.0, 15.0))]))
     draws = tuple(draw(st.lists(DRAWS, max_size=2, unique_by=lambda drawn: drawn.name)))
     things = draw(_things(scene, draws))
+    graph = draw(_about_several(graph, things))
     measures, events = draw(_measures(things)), draw(_events(scene, things))
     rewards = tuple(
         draw(_rewards(graph, len(measures), len(events), len(draws))) for _ in range(draw(st.integers(1, 4)))
@@ -136,6 +141,24 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
     )
     task = replace(task, varies=draw(_variations(graph, task)), fails=draw(_failures(graph)))
     return replace(graph, tasks=(task,), lessons=tuple(draw(_lessons(graph))))
+
+
+@st.composite
+def _about_several(draw: st.DrawFn, graph: Graph, things: tuple[Thing, ...]) -> Graph:
+    """A graph some of whose sensors are about several things that stand side by side, and some that are not there."""
+    apart, sensors = [thing for thing in things if not thing.kind.is_obstacle], []
+    absent = sorted({name for name, _, _ in APART}.difference(thing.name for thing in apart))
+    for sensor in graph.sensors:
+        kind: Any = sensor.kind
+        fits = {thing.name: kind.is_about(type(thing.kind)) for thing in apart} | dict.fromkeys(absent, True)
+        if fits.get(kind.thing) and draw(st.booleans()):
+            first, most = draw(st.integers(0, len(apart))), draw(st.integers(1, 4))
+            standing = [thing.name for thing in apart[first : first + most]]
+            several = standing[: next((k for k, name in enumerate(standing) if not fits[name]), most)]
+            several += draw(st.lists(st.sampled_from(absent), unique=True, max_size=2)) if absent else []
+            kind = replace(kind, of=" or ".join(draw(st.permutations(several or [kind.thing]))))
+        sensors.append(replace(sensor, kind=kind))
+    return replace(graph, sensors=tuple(sensors))
 
 
 @st.composite
@@ -199,16 +222,7 @@ def _goings(draw: st.DrawFn, placed: dict[str, Any], names: list[str]) -> dict[s
 def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...]) -> tuple[Thing, ...]:
     """Items, zones and powers, some of them not there; obstacles on a grid or loose."""
     things: list[Thing] = []
-    for name, kind, size in (
-        ("object", Item, SIZES),
-        ("home", Zone, WIDE),
-        ("coin", Item, SIZES),
-        ("plug", Power, WIDE),
-        ("den", Zone, WIDE),
-        ("crate", LooseBox, SIZES),
-        ("ball", Ball, SIZES),
-        ("cat", Walker, SIZES),
-    ):
+    for name, kind, size in APART:
         if draw(st.integers(0, 2)):
             outcomes = {field.name: draw(OUTCOMES) for field in fields(kind) if field.name in ("reached", "delivered")}
             own = {"density": DENSITY, "friction": FRICTION, "damping": DAMPING} if kind.is_loose else {}

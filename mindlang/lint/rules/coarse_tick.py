@@ -1,8 +1,7 @@
 """A tick in which the robot moves as far as it is large.
 
 Its sensors look, and its rewards are paid, once a tick. The simulation lets nothing pass what is solid: where a tick
-takes a robot far, it is computed in several shorter steps, at a price in time. What nothing is said of, such as a
-thrust of 80, fits a robot of size 2: one that is written in metres wants a thrust of its own.
+takes a robot far, it is computed in several shorter steps, at a price in time.
 """
 
 from mindlang.lint.study import Finding, Found, Study

@@ -30,6 +30,22 @@ class Slot:
         return self.range is None or (self.range.by is None and self.range.first < self.range.last)
 
 
+class OfEnvironment:
+    """A sensor or an actuator: it may be a number of an environment's observation or action."""
+
+    __slots__ = ()
+
+    @property
+    def slot(self) -> Slot | None:
+        """The number that it is; None outside of environments."""
+        return None
+
+    @property
+    def is_outside(self) -> bool:
+        """True if it belongs to an environment."""
+        return self.slot is not None
+
+
 def module_beside(name: str, folder: Path | None) -> Path | None:
     """The file of the module that an environment's name begins with, where it stands in a folder; nothing is run."""
     module, colon, _ = name.partition(":")

@@ -84,7 +84,7 @@ class WorldState(Block):
     trail: Annotated[Array, rows(TRAIL_TICKS, PLACE_ROWS)]  # where the robot was in the last ticks
     # for this tick
     push: Annotated[Array, rows(PUSH_ROWS)]  # force along the heading, torque, the force's x and y, force to the left
-    acting: Annotated[Array, rows("actuators", kind=F4)]  # commands of actuators with noise or failures, as they act
+    acting: Annotated[Array, rows("actuators", kind=F4)]  # the commands as they act, after noise and failures
     grip: Annotated[Array, rows("actuators")]  # the share of its force that each keeps
     begun_at: Annotated[Array, rows(PLACE_ROWS)]  # where the robot was when the tick began
 

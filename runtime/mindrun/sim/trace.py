@@ -234,7 +234,6 @@ def _written(rollout: Rollout, state: State, jobs: Jobs) -> Ticks:
     held, battery, touching = scalars.T.copy()
     actuators = len(tables.actuators)
     reached = np.isin(np.arange(influence.shape[1]), tables.skills["index"])
-    rough = tables.actuators["is_rough"].astype(bool)
     slipping = (tables.actuators["is_slipping"] | tables.actuators["is_sticky"]).astype(bool)
     each_thing = things[:, : THING_ROWS * len(tables.things)].reshape(count, len(tables.things), THING_ROWS)
     return Ticks(
@@ -247,7 +246,7 @@ def _written(rollout: Rollout, state: State, jobs: Jobs) -> Ticks:
         readings=readings,
         influence=np.where(reached, influence, np.float32(np.nan)),
         commands=commands[:, :actuators],
-        acting=np.where(rough, acting[:, :actuators], commands[:, :actuators]),
+        acting=acting[:, :actuators],
         grip=np.where(slipping, grip[:, :actuators], 1.0),
         events=events[:, : len(rollout.task.events)].astype(np.int64),
         lines=lines[:, : len(rollout.task.rewards)],

@@ -5,7 +5,7 @@ from math import pi
 from typing import Annotated, Literal, get_args
 
 from mindrun.kinds.bodies.body import BodyKind, Drive, Point
-from mindrun.kinds.environment import Slot
+from mindrun.kinds.environment import OfEnvironment, Slot
 from mindrun.kinds.registry import base, kind, left_out
 from mindrun.numbers.quantity import (
     ANGLE,
@@ -31,7 +31,7 @@ STOPPED_COMMAND = 0.5  # command, at which what drives does not push
 
 
 @base("actuator")
-class ActuatorKind:
+class ActuatorKind(OfEnvironment):
     """An actuator that does nothing in the simulated world; a kind says what is different about it.
 
     Every kind has the arguments `neutral`, a command in 0..1, and `delay`, in ticks.
@@ -47,16 +47,6 @@ class ActuatorKind:
     carries = False  # whether a sensor can sit on it and turn with it
     is_light = False  # whether it shines with its command
     reach: float | None = None  # ahead of the body, within which it takes items, in world units; None where none
-
-    @property
-    def slot(self) -> Slot | None:
-        """The number of an environment's action that it sets; None outside of environments."""
-        return None
-
-    @property
-    def is_outside(self) -> bool:
-        """True if it belongs to an environment."""
-        return self.slot is not None
 
     @property
     def moves_body(self) -> bool:

@@ -210,6 +210,7 @@ class Mirrored(SensorKind):
     of: Annotated[str, SENSOR]
 
     circular = shape = None
+    first = Turned.first
 
     def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
         """A flaw where the source is a single reading without left and right."""
@@ -232,10 +233,6 @@ class Mirrored(SensorKind):
             return None
         hint = "Mirror a sensor that measures at angles or places as these: at -60 -20 20 60 deg."
         return Flaw("no-mirror", "of", f"The readings of {self.of} do not stand alike on both sides.", hint)
-
-    def first(self, begin: Begin) -> Bounds | None:
-        """None: what is known of the source is mirrored, too."""
-        return None
 
     def reader(self, scene: Scene) -> Reader:
         """1 less the source where that is a direction, else its readings from the last to the first."""

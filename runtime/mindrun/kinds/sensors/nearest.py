@@ -4,7 +4,7 @@ from math import inf
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind, left_out
-from mindrun.kinds.sensors.sensor import Physical, Row, Scene
+from mindrun.kinds.sensors.sensor import Physical, Ranging, Row, Scene
 from mindrun.numbers.quantity import LENGTH, POSITIVE, RATIO, SERVO, THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -77,7 +77,7 @@ class Bearing(Physical):
 
 
 @kind("sensor", "distance")
-class Distance(Physical):
+class Distance(Ranging):
     """Distance from the body's rim to that of a thing, of several the nearest: 0 touching, 1 from `range` on or none.
 
     (distance of the middles − where the body ends in that direction − size / 2) / range: a square is taken for the disc
@@ -87,10 +87,6 @@ class Distance(Physical):
     of: Annotated[str, THING]
     range: Annotated[float, POSITIVE] = 40.0
 
-    scaled = True
-    near = 0
-    unit = "m"
-    blank = 1.0
     remedy = "Let a task contain what it is about"
     is_about = staticmethod(lambda kind: True)  # whatever there is
 

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind, left_out
-from mindrun.kinds.sensors.sensor import Physical
+from mindrun.kinds.sensors.sensor import Ranging
 from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.quantity import ANGLE, POSITIVE, RATIO, SERVO, THING
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "range_finder")
-class RangeFinder(Physical):
+class RangeFinder(Ranging):
     """Distance from the body's rim to what is solid, one reading per angle: 0 touching, 1 clear within `range`.
 
     Angles turn counterclockwise from straight ahead, or from where the servo looks that it is `on`. A reading below
@@ -43,10 +43,6 @@ class RangeFinder(Physical):
     on: Annotated[str, SERVO] = left_out("")
 
     looks = True
-    scaled = True
-    near = 0
-    unit = "m"
-    blank = 1.0
 
     def constant(self, world: WorldFacts) -> float | None:
         """1 in a world where nothing is solid, else None."""
@@ -70,7 +66,7 @@ class RangeFinder(Physical):
 
 
 @kind("sensor", "eye")
-class Eye(Physical):
+class Eye(Ranging):
     """Distance from the body's rim to a thing, one reading per angle: 0 touching or inside, 1 where the ray meets none.
 
     A range finder that sees all things of that name and no other, obstacles and walls too; whatever is solid before one
@@ -84,10 +80,6 @@ class Eye(Physical):
     on: Annotated[str, SERVO] = left_out("")
 
     looks = True
-    scaled = True
-    near = 0
-    unit = "m"
-    blank = 1.0
     remedy = "Let a task contain what it is about"
     is_about = staticmethod(lambda kind: True)  # whatever there is
 

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Set
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol
 
-from mindrun.kinds.environment import Slot
+from mindrun.kinds.environment import OfEnvironment
 from mindrun.kinds.registry import arguments, base, named_arguments
 from mindrun.kinds.things.about import AboutThing
 from mindrun.kinds.things.thing import WorldFacts
@@ -66,7 +66,7 @@ class Scene:
 
 
 @base("sensor")
-class SensorKind(AboutThing):
+class SensorKind(AboutThing, OfEnvironment):
     """A sensor of one reading that varies; a kind says what is different about it."""
 
     __slots__ = ()
@@ -87,16 +87,6 @@ class SensorKind(AboutThing):
     dead_zone = 0.0
     still: float | None = None  # what it reads of a robot that stands, as it does when a run begins
     remedy = "Give it a dead_zone below 0.5"  # for one that is constant
-
-    @property
-    def slot(self) -> Slot | None:
-        """The number of an environment's observation that it is; None outside of environments."""
-        return None
-
-    @property
-    def is_outside(self) -> bool:
-        """True if it belongs to an environment."""
-        return self.slot is not None
 
     @property
     def shape(self) -> Shape | None:
@@ -247,6 +237,17 @@ class Physical(SensorKind):
         """The least and the greatest reading where the true value is `value`, with noise and failures."""
         low, high = max(0.0, value - self.noise), min(1.0, value + self.noise)
         return (min(low, self.blank), max(high, self.blank)) if self.lost and not self.keeps_lost else (low, high)
+
+
+class Ranging(Physical):
+    """How far away something is: 0 touching, 1 from `range` on, or where nothing is."""
+
+    __slots__ = ()
+
+    scaled = True
+    near = 0
+    unit = "m"
+    blank = 1.0
 
 
 def directions(kinds: Mapping[str, SensorKind]) -> Set[str]:

@@ -40,6 +40,8 @@ def act(tables: Tables, state: State, lanes: int) -> None:
         means(mind.command_sums[i], mind.influence_sums[i], actuator.neutral, commands, faults, lanes)
         if actuator.delay > 0:
             wait(tables, state, i, lanes)
+        for lane in range(lanes):
+            world.acting[i, lane] = commands[lane]
         if actuator.is_rough:
             disturb(tables, state, i, lanes)
         if actuator.is_slipping:
@@ -95,13 +97,12 @@ def wait(tables: Tables, state: State, i: int, lanes: int) -> None:
 
 @unit_where(lambda tables: tables.actuators["is_rough"].any())
 def disturb(tables: Tables, state: State, i: int, lanes: int) -> None:
-    """Write each command of actuator i as it acts into `acting`: with some noise, or stuck at neutral."""
-    world, actuator, commands = state.world, tables.actuators[i], state.mind.commands[i]
+    """Let each command of actuator i act with some noise, or stuck at neutral."""
+    world, actuator = state.world, tables.actuators[i]
     acting, noise, stuck = world.acting[i], world.numbers[actuator.noise], world.numbers[max(actuator.fails, 0)]
     for lane in range(lanes):
-        acting[lane] = commands[lane]
         if actuator.is_noisy:
-            acting[lane] = clamp(commands[lane] + F(noise[lane]) * F(uniform(world.random, lane, -1.0, 1.0)))
+            acting[lane] = clamp(acting[lane] + F(noise[lane]) * F(uniform(world.random, lane, -1.0, 1.0)))
         if actuator.fails >= 0 and world.tick[lane] >= stuck[lane]:
             acting[lane] = actuator.neutral
 
@@ -110,9 +111,7 @@ def disturb(tables: Tables, state: State, i: int, lanes: int) -> None:
 def stick(tables: Tables, state: State, i: int, lanes: int) -> None:
     """Let actuator i keep nothing of its force where it stands still and its command is too small to start it."""
     world, actuator, body, heading = state.world, tables.actuators[i], state.world.body, state.world.heading
-    commands, kept, starts = (
-        world.acting[i] if actuator.is_rough else state.mind.commands[i], world.grip[i], world.numbers[actuator.starts]
-    )  # fmt: skip
+    commands, kept, starts = world.acting[i], world.grip[i], world.numbers[actuator.starts]
     for lane in range(lanes):
         ahead = body[SPEED_X, lane] * heading[COSINE, lane] + body[SPEED_Y, lane] * heading[SINE, lane]
         rolls = abs(ahead + actuator.arm * body[SPIN, lane]) >= STANDING_UNITS
@@ -125,7 +124,7 @@ def stick(tables: Tables, state: State, i: int, lanes: int) -> None:
 def turn(tables: Tables, state: State, i: int, lanes: int) -> None:
     """Turn servo i towards its command, by no more than its speed."""
     world, actuator = state.world, tables.actuators[i]
-    commands, angles = world.acting[i] if actuator.is_rough else state.mind.commands[i], world.swivel[i]
+    commands, angles = world.acting[i], world.swivel[i]
     for lane in range(lanes):
         most = world.numbers[actuator.speed, lane]
         left = (1.0 - 2.0 * np.float64(commands[lane])) * world.numbers[actuator.turn, lane] - angles[lane]
@@ -135,8 +134,7 @@ def turn(tables: Tables, state: State, i: int, lanes: int) -> None:
 @unit_where(lambda tables: (tables.actuators["kind"] == GRIPPER).any())
 def grip(tables: Tables, state: State, i: int, lanes: int) -> None:
     """Close above 0.5 on the first item in reach that can come into the claw; open and the item stays where it is."""
-    world, actuator, kinds = state.world, tables.actuators[i], tables.things
-    commands = world.acting[i] if actuator.is_rough else state.mind.commands[i]
+    world, actuator, kinds, commands = state.world, tables.actuators[i], tables.things, state.world.acting[i]
     held, body, heading, things, front = world.held, world.body, world.heading, world.things, tables.world[0].front
     for lane in range(lanes):
         held[lane] = -1 if commands[lane] <= HALF else held[lane]

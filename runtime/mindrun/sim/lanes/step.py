@@ -30,7 +30,7 @@ from mindrun.sim.lanes.placement import NEXT_COLUMN
 from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
 from mindrun.sim.lanes.solid import CLOSED_UNITS, find_swift, is_barred, is_free, within
 from mindrun.sim.lanes.strides import make_tick
-from mindrun.sim.state import MindState, State, WorldState
+from mindrun.sim.state import State, WorldState
 from mindrun.sim.units import unit, unit_where
 
 CONTACT_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here
@@ -41,7 +41,7 @@ CONTACT_TICKS = PERSISTENCE_TICKS + 2  # for which Chipmunk goes on with a lane 
 def step(tables: Tables, state: State, lanes: int) -> None:
     """Damp, push and move the robots and the loose things; then headings, held items and walkers follow."""
     world, contact, constants = state.world, state.contact, tables.world[0]
-    thrust(tables, world, state.mind, lanes)
+    thrust(tables, world, lanes)
     for lane in range(lanes if len(tables.loose) > 0 else 0):
         if world.restless[lane] > 0:
             slow_down(tables, world, contact, lane)
@@ -63,7 +63,7 @@ def step(tables: Tables, state: State, lanes: int) -> None:
         walk(tables, world, lanes)
 
 
-def thrust(tables, world, mind, lanes):
+def thrust(tables, world, lanes):
     """Damp the body's velocities, a car's as its axles let it move, and sum force and torque in `push`."""
     body, heading, push, constants, is_aside = world.body, world.heading, world.push, tables.world[0], False
     push[FORCE, :lanes] = 0.0
@@ -72,9 +72,7 @@ def thrust(tables, world, mind, lanes):
     for i in range(len(tables.actuators)):
         actuator = tables.actuators[i]
         if actuator.kind == PUSH:
-            acting = world.acting[i] if actuator.is_rough else mind.commands[i]
-            strength = world.numbers[actuator.thrust]
-            drive(acting, actuator, strength, world.grip[i], push, lanes)
+            drive(world.acting[i], actuator, world.numbers[actuator.thrust], world.grip[i], push, lanes)
             is_aside |= actuator.aside != 0.0
     linear, angular = world.numbers[constants.linear], world.numbers[constants.angular]
     for lane in range(lanes):  # by 1 / (1 + dt·c), as JBox2D does; and the force turns into the world's axes
@@ -87,7 +85,7 @@ def thrust(tables, world, mind, lanes):
         push[FORCE_X, lane] -= push[FORCE_ASIDE, lane] * heading[SINE, lane]
         push[FORCE_Y, lane] += push[FORCE_ASIDE, lane] * heading[COSINE, lane]
     if constants.axles > 0.0:
-        roll(tables, world, mind, lanes)
+        roll(tables, world, lanes)
 
 
 def drive(commands, actuator, strength, kept, push, lanes):
@@ -102,7 +100,7 @@ def drive(commands, actuator, strength, kept, push, lanes):
 
 
 @unit_where(lambda tables: tables.world[0]["axles"] > 0)
-def roll(tables: Tables, world: WorldState, mind: MindState, lanes: int) -> None:
+def roll(tables: Tables, world: WorldState, lanes: int) -> None:
     """Replace a car's velocity by the one nearest to it, in kinetic energy, that its axles allow: v ahead,
     v·tan δ / 2 to the left and a turn of v·tan δ / distance of the axles.
     """
@@ -110,7 +108,7 @@ def roll(tables: Tables, world: WorldState, mind: MindState, lanes: int) -> None
     moment, mass_inv = world.numbers[constants.moment], world.numbers[constants.mass_inv]
     for lane in range(lanes):
         inertia = moment[lane] * mass_inv[lane]
-        sine, cosine = sine_cosine(steered(tables, world, mind.commands, lane))
+        sine, cosine = sine_cosine(steered(tables, world, lane))
         aside = sine / cosine / 2.0
         turn = sine / cosine / constants.axles
         c, s = heading[COSINE, lane], heading[SINE, lane]
@@ -123,14 +121,13 @@ def roll(tables: Tables, world: WorldState, mind: MindState, lanes: int) -> None
         body[SPIN, lane] = speed * turn
 
 
-def steered(tables, world, commands, lane):
+def steered(tables, world, lane):
     """The angle by which a car's front wheels are turned to the left."""
     angle = 0.0
     for i in range(len(tables.actuators)):
         actuator = tables.actuators[i]
         if actuator.kind == STEERING:
-            command = world.acting[i, lane] if actuator.is_rough else commands[i, lane]
-            angle = (1.0 - 2.0 * command) * world.numbers[actuator.turn, lane]
+            angle = (1.0 - 2.0 * world.acting[i, lane]) * world.numbers[actuator.turn, lane]
     return angle
 
 

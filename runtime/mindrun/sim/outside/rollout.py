@@ -73,7 +73,6 @@ class EnvironmentRollout(Rollout):
         self.observed, self.clipped = 0, np.zeros(len(self.wiring.rows), np.int64)
         self.unreal = np.zeros(len(self.wiring.rows) + 1, np.int64)
         self._flaw = ""
-        self._rough = self.tables.actuators["is_rough"].astype(bool)
         self._rewards = [i for i, measure in enumerate(self.task.measures) if measure.is_outside]
         self._ends = [i for i, event in enumerate(self.task.events) if event.is_outside]
 
@@ -160,9 +159,7 @@ class EnvironmentRollout(Rollout):
         state, lanes = tile.state, int(jobs.lanes[0])
         act(self.tables, state, lanes)
         episodes = self._episodes(tile, jobs)
-        judge, ended, count = state.judge, state.run.ended, len(self.tables.actuators)
-        commands = state.mind.commands[:count, :lanes].copy()
-        commands[self._rough] = state.world.acting[:count, :lanes][self._rough]
+        judge, ended, commands = state.judge, state.run.ended, state.world.acting[: len(self.tables.actuators), :lanes]
         tile.kept.stepper.step(episodes, self.wiring.actions(commands))
         rows = np.array([episode.row[REWARD_COLUMN:] for episode in episodes]).reshape(-1, -REWARD_COLUMN)
         rewards = rows[:, REWARD_COLUMN]
