@@ -81,6 +81,7 @@ class SensorKind(AboutThing):
     unit = ""  # of a driver that measures the same: m for a length, m/s for a speed
     is_given = False  # whether somebody has to read it: the engine does not compute it
     is_order = False  # whether it is what somebody says
+    needs_driver = True  # whether on a robot it is not known without one
     keeps_lost = False  # whether a reading that fails is the one before, and not `blank`
     remembered = 0  # how many numbers the lanes keep of each of its readings
     blank, rest = 0.0, 0.0  # what it reads where there is nothing to measure, and in its dead zone
