@@ -1,6 +1,7 @@
 """Where a servo looks that nothing measures: as in the world, to the bit; at rest where it is; within its limits."""
 
 from dataclasses import replace
+from math import radians, tau
 
 import numpy as np
 import pytest
@@ -38,7 +39,7 @@ task Look in arena size 40
   lasts 60 ticks
   rewards gaze per tick
 """
-SAYS = "range 70 deg speed 213 deg per s neutral 0.3", "neutral 0.6 delay 3 ticks", "range 180 deg neutral 1"
+SAYS = "range 70 deg speed 213 deg per s neutral 0.38", "neutral 0.6 delay 3 ticks", "range 180 deg neutral 1"
 SHARES = st.floats(0, 1, allow_subnormal=False)
 
 
@@ -79,13 +80,13 @@ def test_a_robot_reckons_what_the_world_reads_to_the_bit(says: str) -> None:
 
 @pytest.mark.parametrize("why", ["unarmed", "held"])
 def test_what_does_not_move_is_at_its_neutral(why: str) -> None:
-    graph = compile_text(MIND.format(says="neutral 0.3"))
+    graph = compile_text(MIND.format(says="range 70 deg neutral 0.38"))
     loop = robot(graph, servo_of(graph))
     loop.tick()
     loop.armed, loop.guardian.holds = why != "unarmed", "pan failed" * (why == "held")  # type: ignore[misc]
     loop.tick()
     loop.tick()
-    assert loop.engine.readings[1] == np.float32(0.5 - (1 - 2 * float(np.float32(0.3))) / 4)
+    assert loop.engine.readings[1] == np.float32(0.5 - (1 - 2 * float(np.float32(0.38))) * radians(70) / tau)
 
 
 def test_it_stays_within_limits_and_does_not_turn_faster_than_slew() -> None:
