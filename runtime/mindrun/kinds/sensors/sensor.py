@@ -14,6 +14,7 @@ from mindrun.numbers.expression import Formula
 from mindrun.numbers.quantity import ANGLE, RATIO, SENSOR, SERVO, TICKS
 
 if TYPE_CHECKING:
+    from mindrun.kinds.actuators.actuator import ActuatorKind
     from mindrun.numbers.arrays import Reader
 
 Row = Mapping[str, float]  # columns of the lanes' table of sensors
@@ -139,6 +140,10 @@ class SensorKind(AboutThing):
     def misfit(self, kinds: Mapping[str, SensorKind]) -> Flaw | None:
         """The error in what it is computed from, one of the sensors of these kinds, or None."""
         return None
+
+    def sees(self, actuator: ActuatorKind) -> bool:
+        """True if it reads, of a robot off the ground, whether an actuator turns."""
+        return False
 
     @property
     def battery(self) -> BatteryModel | None:
