@@ -80,11 +80,13 @@ def _least(graph: Graph, wiring: Wiring, name: str, kind: ActuatorKind, is_armed
         raise MindError("nothing may move yet: this robot has not said how it is wired", "mindrun adopt FILE.bundle")
     kinds = {sensor.name: sensor.kind for sensor in graph.sensors}
     eye = next((wire for wire in wiring.sensors if kinds[wire.sensor].sees(kind)), None)
-    by = f"{eye.sensor} sees when it moves; if you do first" if eye else "as soon as it moves"
-    print(f"{name} turns slowly: wheels off the ground! Press Enter {by}, Ctrl-C to end.", file=sys.stderr)
-    with refuse_success("; every actuator comes to neutral"):
-        found = measured_least(graph, wiring, name, eye, lambda sentence: _draw(f"{name} {sentence}"))
-    _end_line()
+    when = f"if you see it move before {eye.sensor} does" if eye else "as soon as it moves"
+    print(f"{name} turns slowly: wheels off the ground! Press Enter {when}, Ctrl-C to end.", file=sys.stderr)
+    try:
+        with refuse_success("; every actuator comes to neutral"):
+            found = measured_least(graph, wiring, name, eye, lambda sentence: _draw(f"{name} {sentence}"))
+    finally:
+        _end_line()
     print("\n".join(least_lines(name, kind, found)))
     return 0
 

@@ -151,9 +151,7 @@ def drive(
     """
     graph, master = bundle.graph, options.master or bundle.graph.master
     engine = Engine(bundle.policy, bundle.procedures, options.master)
-    sensors = known_sensors(wiring, graph)
-    if missing := read_by(graph, master) - {*sensors}:
-        raise MindError(f"{master} reads {', '.join(sorted(missing))}, which is not wired", "add it to robot.yaml")
+    sensors = _sensors(wiring, graph, master)
     plan = plan_of(graph.tick, {actuator.name: actuator.kind.neutral for actuator in graph.actuators}, wiring)
     servos = reckoned_servos(wiring, graph, plan)
     with ExitStack() as stack:
@@ -175,6 +173,14 @@ def drive(
         finally:
             stop.in_order()
         return loop
+
+
+def _sensors(wiring: Wiring, graph: Graph, master: str) -> tuple[str, ...]:
+    """The sensors that are wired or reckoned; MindError where the master reads others."""
+    sensors = known_sensors(wiring, graph)
+    if missing := read_by(graph, master) - {*sensors}:
+        raise MindError(f"{master} reads {', '.join(sorted(missing))}, which is not wired", "add it to robot.yaml")
+    return sensors
 
 
 @contextmanager
