@@ -2,12 +2,16 @@
 
 from dataclasses import replace
 from math import radians, tau
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from mindrun.cli.doctor import wired
 from mindrun.engine.engine import Engine
+from mindrun.graph.bundle import Bundle
+from mindrun.graph.describe import describe
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.graph.wiring import ActuatorWire, Wiring, flaws, reckoned
@@ -15,11 +19,14 @@ from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.guardian.guard import meant, started
 from mindrun.robot.guardian.plan import Channel, plan_of
 from mindrun.robot.loop import Loop, Rate
+from mindrun.robot.recording import read
 from mindrun.robot.sensing import ReadingFilter
 from mindrun.robot.servos import ReckonedServo, reckoned_servos
 from mindrun.sim.commanded_lanes import CommandedWorld
 
 from mindlang.robot.to_fill_in import robot_yaml
+from tests.calling import Call
+from tests.robot.driving import NAME, mindrun
 from tests.robot.faults import Clock, Sent
 from tests.sim.minds import compile_text
 
@@ -114,3 +121,23 @@ def test_no_line_of_robot_yaml_names_it() -> None:
     assert not [*flaws(wiring_of(graph), graph)]
     assert reckoned(wiring_of(graph), graph) == {"gaze": "pan"}
     assert "# gaze is reckoned from what pan is sent" in robot_yaml(graph, "any")[0]
+    assert "sensor gaze is reckoned from what pan is sent" in describe(Bundle(Policy(graph, {}), {}, wiring_of(graph)))
+    assert {check.what: check.words for check in wired(wiring_of(graph), graph)}["gaze"].startswith("reckoned")
+
+
+def test_a_build_and_a_robot_say_that_it_is_reckoned_and_a_replay_knows_it(
+    mindc: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MIND_ROBOT", str(tmp_path / "identity"))
+    mind, wires, bundle, day = (tmp_path / name for name in ("look.mind", "robot.yaml", "look.bundle", "day.rec"))
+    mind.write_text(f"mind 1\n{MIND.format(says=SAYS[0])}", encoding="utf-8")
+    mocks = "".join(f"  {name}:\n    driver: mock\n" for name in ("left_wheel", "pan"))
+    wires.write_text(f"robot: {NAME}\nsensors:\nactuators:\n{mocks}", encoding="utf-8")
+    said = mindc("build", mind, "--robot", wires, "-o", bundle)
+    assert "note: gaze has no driver: it is reckoned from what pan is sent" in said.err
+    assert mindrun("adopt", bundle).returncode == 0
+    assert "gaze is reckoned from what pan is sent" in mindrun(bundle, "--arm", "--ticks", 12, "--record", day).stderr
+    about, (rows,) = read(day)
+    assert about.sensors == ("gaze",)
+    assert len({*rows["readings"][:, 1].tolist()}) > 5
+    assert mindrun("replay", day, bundle).returncode == 0
