@@ -67,7 +67,7 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
             digest = write_bundle(output, Bundle(ready.policy, procedures, wiring))
     except MindError as error:
         fail(str(error), code=MISUSE)
-    notes = [*ready.notes, *_needed_modules(ready, folder)]
+    notes = [*ready.notes, *_needed_modules(ready, folder), *_reckoned(wiring, graph)]
     for note in notes:
         complain(f"note: {note}")
     if as_json:
@@ -97,6 +97,14 @@ def _needed_modules(ready: ReadyMind, folder: Path) -> list[str]:
     graph = ready.policy.graph
     needed = [f"{module} {where}" for module, where in needed_modules(reachable(graph, graph.master), folder).items()]
     return [f"the robot needs {listed(needed, 'and')}, which no bundle holds"] if needed else []
+
+
+def _reckoned(wiring: Wiring | None, graph: Graph) -> list[str]:
+    """A sentence for each sensor that nothing measures on the robot."""
+    from mindrun.graph.wiring import reckoned
+
+    known = reckoned(wiring, graph).items() if wiring else ()
+    return [f"{sensor} has no driver: it is reckoned from what {servo} is sent" for sensor, servo in known]
 
 
 def _refuse_procedures(graph: Graph, mind: Mind, folder: Path) -> None:

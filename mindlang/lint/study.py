@@ -156,13 +156,12 @@ class Study:
         return found
 
     @cached_property
-    def senses(self) -> dict[str, str]:
-        """The thing that each sensor is about; sensors about none or several are left out."""
-        things = {
-            name: {thing for root in roots if root in self.sensors for thing in self.sensors[root].things}
+    def senses(self) -> dict[str, frozenset[str]]:
+        """The things that each sensor, or what it is computed from, is about."""
+        return {
+            name: frozenset(thing for root in roots if root in self.sensors for thing in self.sensors[root].things)
             for name, roots in self.roots.items()
         }
-        return {name: next(iter(about)) for name, about in things.items() if len(about) == 1}
 
     @cached_property
     def mentions(self) -> tuple[Mention, ...]:

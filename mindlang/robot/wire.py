@@ -94,7 +94,7 @@ def _wiring(node: Node, graph: Graph, unit_metres: float | None, findings: Findi
     said = top.entries
     check_keys(top, top.span, "The file", (*KEYS, "on_broken"), KEYS, findings)
     own = physical(graph)
-    needed = {name for name in read_by(graph, graph.master) if not own[name].kind.is_order}
+    needed = {name for name in read_by(graph, graph.master) if own[name].kind.needs_driver}
     moved = {actuator.name: actuator for actuator in graph.actuators}  # all of them, since each has a neutral
     wire_of = partial(sensor_wire, unit_metres=unit_metres, findings=findings)
     sensing = list(_section("sensor", said.get("sensors"), own, needed, graph, wire_of, findings))

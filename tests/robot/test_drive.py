@@ -203,7 +203,7 @@ def test_calibrate_prints_lines_for_the_wiring(bundle: Path) -> None:
     assert mindrun("calibrate", bundle, "sense", "--seconds", "nan").returncode == 2
     said = mindrun("calibrate", bundle, "sence")
     assert said.returncode == 2
-    assert "no sensor sence is wired" in said.stderr
+    assert "no sensor or motor sence is wired" in said.stderr
 
 
 @pytest.mark.parametrize("tool", ["adopt", "calibrate", "doctor", "replay", "report"])

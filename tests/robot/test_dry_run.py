@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from mindrun.graph.graph import Graph, Task, Thing
 from mindrun.graph.policy import Policy
 from mindrun.robot.dry_run import MAX_THINGS_NAMED, DryRun, beginning, outcome
 from mindrun.robot.recording import read
+from mindrun.robot.world_server import SimulatedScene
 from mindrun.sim.commanded_lanes import CommandedWorld
 from mindrun.sim.rollout import Rollout
 from mindrun.terminal.standard_streams import CLEAR, PLAIN_SECONDS, StatusLine, error_columns
@@ -21,6 +23,9 @@ from mindrun.terminal.standard_streams import CLEAR, PLAIN_SECONDS, StatusLine, 
 from mindlang.compiler.compile import load
 from tests.calling import RULES, write_rules
 from tests.robot.driving import MINDRUN, PATIENCE
+from tests.robot.test_dry_recording import served
+from tests.robot.test_world import until
+from tests.sim.minds import compile_text
 
 STATUS = {
     "seed": 3, "tick": 90, "events": {"reach of ball": 2, "collision": 0}, "ended": None,
@@ -120,6 +125,51 @@ def test_lines_of_one_text_come_to_the_score_of_mindc_in_their_order(tmp_path: P
     assert world.score == rollout.score(np.zeros((1, 0), np.float32), [3]).total[0, 0]
     assert world.score != sum(world.by_line.values())
     assert len(world.by_line) == len(rollout.task.rewards) - 1
+
+
+MEMORY = """\
+tick 1/20 s
+master Go
+body Robot is disc
+actuator left_wheel is wheel side left neutral 0.5
+memory count is cell decay 0.9 start 20%
+sensor pulse is sine period 0.7 s
+skill Go is rule
+  reads pulse
+  drives count at pulse
+  drives left_wheel at 0.6
+task Look in arena size 40
+  lasts 60 ticks
+  ends when count > 55%
+  rewards count per tick
+"""
+
+
+def test_what_is_paid_for_a_memory_is_that_of_the_mind_that_commands() -> None:
+    graph = compile_text(MEMORY)
+    world, engine = CommandedWorld(graph, "Look", 3), Engine(Policy(graph, {}))
+    while world.ended is None:
+        commands = engine.tick(world.readings())
+        world.remember({"count": float(engine.readings[graph.memories[0].start])})
+        world.step(commands)
+    scores = Rollout(Policy(graph, {}), "Look", "Go").score(np.zeros((1, 0), np.float32), [3])
+    assert world.score == scores.total[0, 0]
+    assert world.tick == scores.ticks[0, 0] < 60
+
+
+def test_the_world_is_told_the_memories_of_the_mind() -> None:
+    graph = compile_text(MEMORY)
+    scene, engine = SimulatedScene(CommandedWorld(graph, "Look", 3)), Engine(Policy(graph, {}))
+    with served(scene) as path:
+        run = DryRun(graph, graph.tasks[0], "Go", path, StatusLine(print))
+        with run.shown():
+            for _ in range(3):
+                engine.tick(np.zeros(graph.width, np.float32))
+                run.watch(SimpleNamespace(engine=engine))  # type: ignore[arg-type]
+                now = {"count": float(engine.readings[graph.memories[0].start])}
+                until(lambda now=now: scene.memories == now)  # type: ignore[misc]
+        scene.tick()
+    assert scene.status()["score"] == now["count"]
 
 
 # The line while it drives

@@ -176,6 +176,8 @@ class Counting:
         self.tick += self.ended is None
         self.given = commands
 
+    def remember(self, cells: dict[str, float]) -> None: ...
+
     def begin(self, seed: int) -> None:
         self.seed, self.tick = seed, 0
 

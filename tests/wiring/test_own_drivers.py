@@ -159,9 +159,9 @@ def test_nothing_that_reads_runs_it(built: Path, log: Path, rules: Path, mindc: 
 
 
 def test_doctor_names_it(built: Path) -> None:
-    wiring = read_bundle(built).wiring
-    assert wiring
-    said = {check.what: check.words for check in wired(wiring)}
+    bundle = read_bundle(built)
+    assert bundle.wiring
+    said = {check.what: check.words for check in wired(bundle.wiring, bundle.graph)}
     assert said["feeler"] == "own.Feelers reads 0.25 0.5 0.75 m"
     assert said["left_wheel"] == "own.Wheel, left alone"
 

@@ -54,14 +54,18 @@ def refuse_facts(declaration: Declaration, verbs: Sequence[str], findings: Findi
 
 
 def said_once(
-    facts: Iterable[F], says: Callable[[F], str], findings: Findings, hint: str = "Leave one out."
+    facts: Iterable[F],
+    says: Callable[[F], str],
+    findings: Findings,
+    hint: str | Callable[[Sequence[F]], str] = "Leave one out.",
 ) -> list[F]:
     """The first of the facts of which the same is to be said where they are repeated; the others are reported so."""
     by_message: dict[str, list[F]] = {}
     for fact in facts:
         by_message.setdefault(says(fact), []).append(fact)
     for message, same in by_message.items():
-        findings.refuse_again("repeated-fact", [fact.span for fact in same], message, hint)
+        remedy = hint if isinstance(hint, str) else hint(same)
+        findings.refuse_again("repeated-fact", [fact.span for fact in same], message, remedy)
     return [same[0] for same in by_message.values()]
 
 

@@ -10,7 +10,7 @@ from mindrun.numbers.quantity import RATIO
 from networkx import DiGraph
 
 from mindlang.compiler import model, syntax
-from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
 from mindlang.compiler.names import Names
 from mindlang.compiler.references import DRIVABLE_NOUNS
@@ -110,8 +110,21 @@ def _edges(declaration: Declaration, names: Names, visible: Visible, findings: F
         gate = resolve_expressions(fact.gate, visible, findings)
         if to:
             edges.append(model.Edge(to, fact.name.text, at, fact, gate, cuts or 0.0, over))
-    first = set(said_once((edge.fact for edge in edges), _repeated, findings, ONE_OF_TWO))
+    first = set(said_once((edge.fact for edge in edges), _repeated, findings, _on_one_line))
     return tuple(edge for edge in edges if edge.fact in first)
+
+
+def _on_one_line(facts: Sequence[Drives | Influences]) -> str:
+    """What to write instead of several lines about the same: one, over all that they are over where they are alike."""
+    over = [fact.over for fact in facts if isinstance(fact, Influences) and fact.over]
+    if not over:
+        return ONE_OF_TWO
+    pairs = zip(facts, over, strict=True) if len(over) == len(facts) else ()
+    rests = {fact.span.source.text[names[-1].span.end : fact.span.end].strip() for fact, names in pairs}
+    skill, names = facts[0].name.text, dict.fromkeys(name.text for names in over for name in names)
+    if len(rests) == 1:
+        return f"Write influences {' '.join((skill, 'over', listed(names, 'and'), *filter(None, rests)))}."
+    return f"One line has one value: send the other to a skill between, skill Via is rule with influences {skill} at 1."
 
 
 def _over(fact: Influences, names: Names, findings: Findings) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 A sensor about a thing that is not there reads the same in every tick, a bearing 0.5: whoever reads it learns nothing of
 it, and a skill that goes there goes nowhere. A skill that is taught several times may do without in some lessons, as
-long as one of them has the thing.
+long as one of them has the thing. A sensor about things of several names learns of each of them in a world that has it.
 """
 
 from mindlang.compiler.diagnostic import Label, listed
@@ -22,11 +22,18 @@ task Seek in arena
   rewards 10 on reach of ball
 curriculum School is genetic
 """
+EITHER = SEEK.replace("of ball\nskill", "of ball or car\nskill").replace(
+    "arena\n  lasts", "arena\n  contains car is item\n  lasts"
+)
 GOOD = (
+    f"{EITHER}  teaches Go on Seek for 10 generations\n  teaches Go on Empty for 10 generations\n",
     f"{SEEK}  teaches Go on Seek for 10 generations\n",
     f"{SEEK}  teaches Go on Empty for 10 generations\n  teaches Go on Seek for 10 generations\n",
 )
-BAD = f"{SEEK}  teaches Go on Empty for 10 generations\n"
+BAD = (
+    f"{SEEK}  teaches Go on Empty for 10 generations\n",
+    f"{EITHER}  teaches Go on Seek for 10 generations\n",
+)
 
 Readers = dict[str, tuple[str, str]]  # by thing: a skill and the sensor about the thing that it reads
 
@@ -54,6 +61,7 @@ def _readers(study: Study) -> dict[str, Readers]:
         own: Readers = {}
         for name in skill.subskills:
             own |= found[name]
-        own |= {study.senses[sensor]: (skill.name, sensor) for sensor in skill.reads if sensor in study.senses}
+        sensed = ((thing, name) for name in skill.reads for thing in sorted(study.senses.get(name, ())))
+        own |= {thing: (skill.name, sensor) for thing, sensor in sensed}
         found[skill.name] = own
     return found

@@ -9,7 +9,7 @@ from mindlang.compiler.syntax import Contains, of_form
 from mindlang.lint.study import Finding, Found, Study, removal
 
 ELSEWHERE = True
-GOOD = """
+CARRY = """
 sensor ball_bearing is bearing of ball
 task Carry in arena
   contains ball is item
@@ -18,11 +18,19 @@ task Carry in arena
   lasts 9 s
   counts delivery of ball
 """
+NAMES = """
+sensor seen is eye of person or car at -20 20 deg
+task Cross in arena
+  contains person is item
+  contains car is item
+  lasts 9 s
+"""
+GOOD = (CARRY, NAMES)
 BAD = "task Carry in arena\n  contains ball is item\n  lasts 9 s\n"
 
 
 def check(study: Study) -> Found:
-    sensed, named = {*study.senses.values()}, _named(study)
+    sensed, named = frozenset[str]().union(*study.senses.values()), _named(study)
     charges = any(kind.battery for kind in study.sensors.values())
     used: set[Span] = set()
     idle: dict[Span, Contains] = {}

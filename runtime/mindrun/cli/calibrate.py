@@ -1,15 +1,20 @@
-"""Watch a sensor, and print the lines for robot.yaml that its values call for.
+"""Watch a sensor or turn a motor, and print the lines for robot.yaml that this calls for.
 
-Move what it measures through its whole range while it runs; then let it rest. Nothing is moved by the robot.
+Of a sensor: move what it measures through its whole range while it runs; then let it rest. Nothing is moved by the
+robot.
+
+Of a wheel or a motor: how much of a command it needs to start. With the wheels off the ground and --arm its command is
+raised by 1% of the way each half second, forward and then backward, until you press Enter or its encoder sees it move.
 
 examples:
   mindrun calibrate ball.bundle proximity
   mindrun calibrate ball.bundle ball_bearing --seconds 30
+  mindrun calibrate ball.bundle left_wheel --arm
 """
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median, pstdev
@@ -18,8 +23,12 @@ from time import monotonic, sleep
 from mindrun.errors import MindError
 from mindrun.files.printable import visible
 from mindrun.graph.bundle import read_bundle
-from mindrun.graph.wiring import SensorWire, reading, still
+from mindrun.graph.graph import Graph
+from mindrun.graph.wiring import SensorWire, Wiring, reading, still
+from mindrun.kinds.actuators.actuator import ActuatorKind
 from mindrun.kinds.sensors.sensor import SensorKind
+from mindrun.robot.least_command import measured_least
+from mindrun.robot.ownership import is_adopted
 from mindrun.robot.processes import refuse_success
 from mindrun.robot.sensing import Sample, Sampler
 from mindrun.terminal.arguments import real
@@ -31,7 +40,8 @@ NOISE_VALUES = 10  # that follow one another, over which noise is measured
 
 def options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("bundle", type=Path, help="what `mindc build --robot` wrote")
-    parser.add_argument("sensor", help="one that is wired")
+    parser.add_argument("part", help="a sensor that is wired, or what drives")
+    parser.add_argument("--arm", action="store_true", help="let the motor turn: without it nothing moves")
     parser.add_argument(
         "--seconds", type=real(0, MAX_SECONDS), default=20.0, metavar="S", help="how long to watch (default: 20)"
     )
@@ -43,9 +53,12 @@ def run(options: argparse.Namespace) -> int:
     if bundle.wiring is None:
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml")
     wires = {wire.sensor: wire for wire in bundle.wiring.sensors}
-    if options.sensor not in wires:
-        raise MindError(f"no sensor {options.sensor} is wired", f"there are {', '.join(wires)}")
-    wire = still(wires[options.sensor])
+    motors = {each.name: each.kind for each in bundle.graph.actuators if each.kind.is_motor}
+    if options.part in motors:
+        return _least(bundle.graph, bundle.wiring, options.part, motors[options.part], options.arm)
+    if options.part not in wires:
+        raise MindError(f"no sensor or motor {options.part} is wired", f"there are {', '.join([*wires, *motors])}")
+    wire = still(wires[options.part])
     kind = next(known.kind for known in bundle.graph.sensors if known.name == wire.sensor)
     with refuse_success():
         samples = _watched(wire, kind, options.seconds)
@@ -57,6 +70,35 @@ def run(options: argparse.Namespace) -> int:
         return 1
     print("\n".join(lines(wire, good, kind)))
     return 0
+
+
+def _least(graph: Graph, wiring: Wiring, name: str, kind: ActuatorKind, is_armed: bool) -> int:
+    """Measure and print what share of a command a motor needs to start; the exit code."""
+    if not is_armed:
+        raise MindError(f"{name} has to turn for this, and nothing moves yet", "wheels off the ground, then add --arm")
+    if not is_adopted(wiring, graph):
+        raise MindError("nothing may move yet: this robot has not said how it is wired", "mindrun adopt FILE.bundle")
+    kinds = {sensor.name: sensor.kind for sensor in graph.sensors}
+    eye = next((wire for wire in wiring.sensors if kinds[wire.sensor].sees(kind)), None)
+    when = f"if you see it move before {eye.sensor} does" if eye else "as soon as it moves"
+    print(f"{name} turns slowly: wheels off the ground! Press Enter {when}, Ctrl-C to end.", file=sys.stderr)
+    try:
+        with refuse_success("; every actuator comes to neutral"):
+            found = measured_least(graph, wiring, name, eye, lambda sentence: _draw(f"{name} {sentence}"))
+    finally:
+        _end_line()
+    print("\n".join(least_lines(name, kind, found)))
+    return 0
+
+
+def least_lines(name: str, kind: ActuatorKind, found: Mapping[str, float]) -> list[str]:
+    """The lines for robot.yaml and for the .mind file, where a motor starts at these shares of a command."""
+    said = [f"# {name} starts at " + " and ".join(f"{share:.0%} {way}" for way, share in found.items())]
+    least = max(found.values())
+    said += [f"{name}:", f"  least: {least:.0%}"]
+    if hasattr(kind, "starts"):
+        said.append(f"# or in the .mind file, where robot.yaml has no least: starts {least:.0%}")
+    return said
 
 
 def _watched(wire: SensorWire, kind: SensorKind, seconds: float) -> list[Sample]:
@@ -75,17 +117,25 @@ def _watched(wire: SensorWire, kind: SensorKind, seconds: float) -> list[Sample]
         pass  # that is enough
     finally:
         sampler.stop()
-    if sys.stderr.isatty():
-        print(file=sys.stderr)
+    _end_line()
     return samples
 
 
 def _show(wire: SensorWire, kind: SensorKind, sample: Sample) -> None:
-    if not sys.stderr.isatty():
-        return
     values = ((raw, reading(wire, raw, kind.circular)) for raw in sample.values)
     pairs = (f"{'-' if raw is None else f'{raw:.3g}'} → {value:.2f}" for raw, value in values)
-    draw(f"\r\033[K{visible(sample.fault or '  '.join(pairs))}"[:160])
+    _draw(sample.fault or "  ".join(pairs))
+
+
+def _draw(text: str) -> None:
+    """Write a line over the one before, in a terminal."""
+    if sys.stderr.isatty():
+        draw(f"\r\033[K{visible(text)}"[:160])
+
+
+def _end_line() -> None:
+    if sys.stderr.isatty():
+        print(file=sys.stderr)
 
 
 @dataclass(frozen=True, slots=True)

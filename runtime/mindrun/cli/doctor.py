@@ -21,7 +21,8 @@ from threading import Thread
 
 from mindrun.driver import driver_name
 from mindrun.graph.bundle import read_bundle
-from mindrun.graph.wiring import SensorWire, Wiring, still
+from mindrun.graph.graph import Graph
+from mindrun.graph.wiring import SensorWire, Wiring, reckoned, still
 from mindrun.robot.processes import refuse_success
 from mindrun.robot.sensing import Sample, Sampler
 from mindrun.terminal.standard_streams import document
@@ -56,9 +57,10 @@ def run(options: argparse.Namespace) -> int:
     """Check and print; the exit code, 0 where everything that is wired answers, else 1."""
     findings = [*machine()]
     if options.bundle:
-        wiring = read_bundle(options.bundle).wiring
+        bundle = read_bundle(options.bundle)
         with refuse_success():
-            findings += wired(wiring) if wiring else [CheckResult("bundle", WRONG, "it is wired to no robot")]
+            wrong = CheckResult("bundle", WRONG, "it is wired to no robot")
+            findings += wired(bundle.wiring, bundle.graph) if bundle.wiring else [wrong]
     is_fine = all(finding.mark != WRONG for finding in findings)
     if options.json:
         data = [{"what": each.what, "state": STATES[each.mark], "seen": each.words} for each in findings]
@@ -89,8 +91,8 @@ def machine() -> Iterator[CheckResult]:
             yield CheckResult(str(path), ABSENT, "not there")
 
 
-def wired(wiring: Wiring) -> Iterator[CheckResult]:
-    """Every sensor, read once; every actuator, by the name of its driver."""
+def wired(wiring: Wiring, graph: Graph) -> Iterator[CheckResult]:
+    """Every sensor, read once; every direction that is reckoned; every actuator, by the name of its driver."""
     for wire in wiring.sensors:
         sample = answered(wire)
         kind = driver_name(wire.driver)
@@ -100,6 +102,8 @@ def wired(wiring: Wiring) -> Iterator[CheckResult]:
             values = " ".join("-" if value is None else f"{value:.3g}" for value in sample.values)
             words = sample.fault or f"{kind} reads {values} {wire.driver.unit}".rstrip()
             yield CheckResult(wire.sensor, WRONG if sample.fault else FINE, words)
+    for sensor, servo in reckoned(wiring, graph).items():
+        yield CheckResult(sensor, FINE, f"reckoned from what {servo} is sent")
     for end in wiring.actuators:
         yield CheckResult(end.actuator, FINE, f"{driver_name(end.driver)}, left alone")
 

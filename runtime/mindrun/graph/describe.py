@@ -5,8 +5,9 @@ from typing import Any
 
 from mindrun.graph.bundle import Bundle, fingerprint
 from mindrun.graph.codec import encode
+from mindrun.graph.graph import Graph
 from mindrun.graph.named_readings import physical
-from mindrun.graph.wiring import Wiring, code_digests
+from mindrun.graph.wiring import Wiring, code_digests, reckoned
 from mindrun.kinds.registry import names
 
 
@@ -39,17 +40,18 @@ def contents(bundle: Bundle) -> dict[str, Any]:
         ],
         "procedures": sorted(name for name, content in bundle.procedures.items() if isinstance(content, str)),
         **({"files": files} if (files := sorted({name for s in graph.skills for name in s.files})) else {}),
-        **({"robot": _robot(bundle.wiring)} if bundle.wiring else {}),
+        **({"robot": _robot(bundle.wiring, graph)} if bundle.wiring else {}),
     }
 
 
-def _robot(wiring: Wiring) -> dict[str, Any]:
+def _robot(wiring: Wiring, graph: Graph) -> dict[str, Any]:
     """The wiring as it stands in the bundle; of each sensor the unit of its values, too."""
     return {
         "name": wiring.robot,
         "wiring": fingerprint(wiring),
         **({"drivers": digests} if (digests := code_digests(wiring)) else {}),
         "sensors": [{**encode(wire), "unit": wire.driver.unit} for wire in wiring.sensors],
+        **({"reckoned": found} if (found := reckoned(wiring, graph)) else {}),
         "actuators": [encode(wire) for wire in wiring.actuators],
     }
 
@@ -91,6 +93,8 @@ def _wires(robot: dict[str, Any]) -> Iterator[str]:
             f"sensor {wire['sensor']} is wired to {_driver(wire)}: {values}, {wire['rate']:g} Hz{median}, "
             f"{wire['on_fault']} when older than {wire['max_age']:g} s"
         )
+    for sensor, servo in robot.get("reckoned", {}).items():
+        yield f"sensor {sensor} is reckoned from what {servo} is sent"
     for wire in robot["actuators"]:
         slew = f", at most {wire['slew']:g} a second" if wire["slew"] else ""
         turned = ", reversed" if wire["reversed"] else ""

@@ -123,6 +123,18 @@ def read_by(graph: Graph, master: str) -> Set[str]:
     return {sensor.name for sensor in with_sources(graph, inputs)} & physical(graph).keys()
 
 
+def reckoned(wiring: Wiring, graph: Graph) -> dict[str, str]:
+    """The sensors that read where a servo looks without a driver, so that it is reckoned; with the servo of each."""
+    wired = {wire.sensor for wire in wiring.sensors}
+    return {each.name: each.kind.servo for each in graph.sensors if each.kind.tells_servo and each.name not in wired}
+
+
+def known_sensors(wiring: Wiring, graph: Graph) -> tuple[str, ...]:
+    """The sensors that are wired or reckoned, in the order of the graph."""
+    known = {*reckoned(wiring, graph), *(wire.sensor for wire in wiring.sensors)}
+    return tuple(sensor.name for sensor in graph.sensors if sensor.name in known)
+
+
 def flaws(wiring: Wiring, graph: Graph) -> Iterator[str]:
     """Why a robot that is wired so cannot have this mind."""
     sensors, actuators = physical(graph), {actuator.name: actuator.kind for actuator in graph.actuators}
@@ -130,8 +142,8 @@ def flaws(wiring: Wiring, graph: Graph) -> Iterator[str]:
     known = set(wired)
     if not wiring.robot or not wiring.robot.isprintable():
         yield "its robot has no name that can be printed"
-    orders = {name for name, sensor in sensors.items() if sensor.kind.is_order}
-    if wired != [name for name in sensors if name in known] or not read_by(graph, graph.master) <= known | orders:
+    needed = {name for name in read_by(graph, graph.master) if sensors[name].kind.needs_driver}
+    if wired != [name for name in sensors if name in known] or not needed <= known:
         yield "its sensors are not those of the mind"
     if [wire.actuator for wire in wiring.actuators] != list(actuators):
         yield "its actuators are not those of the mind"

@@ -21,7 +21,7 @@ from mindrun.graph.bundle import Bundle, digest, read_bundle
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.measured import measured_in_world
 from mindrun.graph.tasks import default_task
-from mindrun.graph.wiring import Wiring, read_by, still
+from mindrun.graph.wiring import Wiring, known_sensors, read_by, reckoned, still
 from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.dry_run import DryRun, SeenWorld, beginning, outcome, refuse_environment, simulated_wiring
 from mindrun.robot.guardian.client import Guardian
@@ -33,6 +33,7 @@ from mindrun.robot.ownership import hold_devices, is_adopted
 from mindrun.robot.processes import StopSignals, refuse_success, stopping
 from mindrun.robot.recording import About, Recorder, TemporaryRecorder, temporary_recording
 from mindrun.robot.sensing import ReadingFilter, Sampler
+from mindrun.robot.servos import reckoned_servos
 from mindrun.robot.simulated_world import simulated, status
 from mindrun.terminal.command_line import command_line
 from mindrun.terminal.standard_streams import StatusLine
@@ -82,6 +83,8 @@ def _wired(options: argparse.Namespace, bundle: Bundle, line: StatusLine, orders
         wiring = replace(wiring, actuators=tuple(replace(wire, driver=MockActuator()) for wire in wiring.actuators))
     if not options.arm:
         wiring = replace(wiring, sensors=tuple(map(still, wiring.sensors)))
+    for sensor, servo in reckoned(wiring, bundle.graph).items():
+        line.tell(f"{sensor} is reckoned from what {servo} is sent")
     with hold_devices(wiring) as held:
         wiring = with_orders(wiring, bundle.graph, bundle.graph.sensors, orders)
         return drive(bundle, wiring, options, line.tell, held)
@@ -148,17 +151,18 @@ def drive(
     """
     graph, master = bundle.graph, options.master or bundle.graph.master
     engine = Engine(bundle.policy, bundle.procedures, options.master)
-    if missing := read_by(graph, master) - {wire.sensor for wire in wiring.sensors}:
-        raise MindError(f"{master} reads {', '.join(sorted(missing))}, which is not wired", "add it to robot.yaml")
-    neutrals = {actuator.name: actuator.kind.neutral for actuator in graph.actuators}
+    sensors = _sensors(wiring, graph, master)
+    plan = plan_of(graph.tick, {actuator.name: actuator.kind.neutral for actuator in graph.actuators}, wiring)
+    servos = reckoned_servos(wiring, graph, plan)
     with ExitStack() as stack:
         stop = stack.enter_context(stopping(STOP_SECONDS * max(1.0, graph.tick)))
-        about = About.of(graph, digest(options.bundle), master, tuple(wire.sensor for wire in wiring.sensors))
+        about = About.of(graph, digest(options.bundle), master, sensors)
         recorder = stack.enter_context(_recording(options, about, world, tell))
         stack.enter_context(refuse_success("; every actuator comes to neutral"))
         samplers = stack.enter_context(_sampling(wiring))
-        guardian = stack.enter_context(Guardian(plan_of(graph.tick, neutrals, wiring), inherited=held))
-        loop = Loop(engine, ReadingFilter(graph, samplers), guardian, Rate(graph.tick), options.arm, recorder, tell)
+        guardian = stack.enter_context(Guardian(plan, inherited=held))
+        senses = ReadingFilter(graph, sorted((*samplers, *servos), key=lambda each: sensors.index(each.wire.sensor)))
+        loop = Loop(engine, senses, guardian, Rate(graph.tick), options.arm, recorder, tell, servos=servos)
         promises = PromiseWatcher(graph, master)
         loop.promises, loop.stops_on_broken = promises if promises.promises else None, wiring.on_broken == "neutral"
         _wait(samplers, guardian, loop, stop)
@@ -169,6 +173,14 @@ def drive(
         finally:
             stop.in_order()
         return loop
+
+
+def _sensors(wiring: Wiring, graph: Graph, master: str) -> tuple[str, ...]:
+    """The sensors that are wired or reckoned; MindError where the master reads others."""
+    sensors = known_sensors(wiring, graph)
+    if missing := read_by(graph, master) - {*sensors}:
+        raise MindError(f"{master} reads {', '.join(sorted(missing))}, which is not wired", "add it to robot.yaml")
+    return sensors
 
 
 @contextmanager

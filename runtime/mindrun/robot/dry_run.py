@@ -18,7 +18,7 @@ from mindrun.graph.skill_sets import driving, movers
 from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring, read_by
 from mindrun.robot.drivers.simulated import SimulatedActuator, SimulatedSensor
 from mindrun.robot.loop import Loop
-from mindrun.robot.simulated_world import BOXES, WORLD, WorldConnection, status
+from mindrun.robot.simulated_world import BOXES, WORLD, WRITE, WorldConnection, status
 from mindrun.terminal.standard_streams import StatusLine
 from mindrun.terminal.tick_count import ticks as in_words
 
@@ -74,9 +74,10 @@ def beginning(graph: Graph, task: Task, master: str, seed: int) -> list[str]:
 
 
 class DryRun:
-    """Says on a status line how a run in the world at a socket stands, from a thread of its own.
+    """Says on a status line how a run in the world at a socket stands, and tells the world the mind's memories.
 
-    The loop only leaves the influence of its last tick here: it waits neither for the world nor for a terminal.
+    The loop only leaves influence and readings of its last tick here: it waits neither for the world nor for a
+    terminal, which threads do.
     """
 
     def __init__(
@@ -85,13 +86,15 @@ class DryRun:
         self._graph, self._task, self._socket, self._line, self._seen = graph, task, socket, line, seen
         self._acting_skills = movers(graph, master) or driving(graph, master, range(len(graph.actuators)))
         self._influence: NDArray[np.float32] | None = None
+        self._readings = np.zeros(graph.width, np.float32)
         self._is_over, self._end_ticks = False, 0
         self._lost: DeviceError | None = None
-        self._stop = Event()
+        self._stop, self._ticked = Event(), Event()
 
     def watch(self, loop: Loop) -> bool:
         """True if, after a tick, the run goes on or its recording waits for its end; DeviceError without a world."""
-        self._influence = loop.engine.influence
+        self._influence, self._readings = loop.engine.influence, loop.engine.readings
+        self._ticked.set()
         if self._lost:
             raise self._lost
         if not self._is_over:
@@ -101,15 +104,31 @@ class DryRun:
 
     @contextmanager
     def shown(self) -> Iterator[None]:
-        """Show how the run stands as long as this lasts."""
-        thread = Thread(target=self._show, name="dry_run", daemon=True)
-        thread.start()
+        """Show how the run stands, and tell of memories, as long as this lasts."""
+        threads = [Thread(target=each, name="dry_run", daemon=True) for each in (self._show, self._tell)]
+        for thread in threads:
+            thread.start()
         try:
             yield
         finally:
             self._stop.set()
-            thread.join()
+            self._ticked.set()
+            for thread in threads:
+                thread.join()
             self._line.clear()
+
+    def _tell(self) -> None:
+        """Tell the world in each tick which of the memories have changed, for its rewards and ends."""
+        link, told = WorldConnection(self._socket), dict[str, float]()
+        while self._graph.memories and self._ticked.wait() and not self._stop.is_set():
+            self._ticked.clear()
+            now = self._readings
+            for name, value in ((each.name, float(now[each.start])) for each in self._graph.memories):
+                if told.get(name) != value:
+                    with suppress(DeviceError):  # next time
+                        link.ask(WRITE, name, value)
+                        told[name] = value
+        link.close()
 
     def _show(self) -> None:
         silent = 0

@@ -1,7 +1,7 @@
 """The control loop: sense, think, send, at a fixed rate. Whatever goes wrong in it, the guardian stops the robot."""
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from time import monotonic, sleep
 
@@ -15,6 +15,7 @@ from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.guard import failing
 from mindrun.robot.recording import Recorder
 from mindrun.robot.sensing import FilteredReadings, ReadingFilter
+from mindrun.robot.servos import ReckonedServo
 from mindrun.terminal.tick_count import ticks as in_words
 
 LATENESS_BINS = 400  # of lateness, each a hundredth of a tick
@@ -91,7 +92,8 @@ class Loop:
 
     It counts the ticks in which it `stopped` the robot, and the others in which the guardian `held` it, by the reason.
     It watches `promises`: of one that is broken `tell` gets a sentence, and again once it has held. Where the robot
-    `stops_on_broken`, it is stopped while a skill acts against what it requires or maintains.
+    `stops_on_broken`, it is stopped while a skill acts against what it requires or maintains. The `servos` turn as they
+    are commanded, and say where they look.
     """
 
     engine: Engine
@@ -108,6 +110,7 @@ class Loop:
     promises: PromiseWatcher | None = None
     stops_on_broken: bool = False
     broken: set[int] = field(default_factory=set)
+    servos: Sequence[ReckonedServo] = ()
 
     def run(self, goes_on: Callable[[TickResult], bool]) -> None:
         """Tick until `goes_on` says no; MindError where the mind or the guardian fails."""
@@ -120,6 +123,8 @@ class Loop:
         missed = self.pace.missed
         time = self.pace.wait()
         behind = self.pace.missed - missed >= MISSED_TICKS_LIMIT
+        for servo in self.servos:
+            servo.look(time)
         sensed = self.senses.now(time)
         for name, why in sensed.why.items():
             if name not in self.faulty:
@@ -134,6 +139,8 @@ class Loop:
         sent = self.neutral if stopped else commands
         self.guardian.send(sent.tolist(), self.armed and not stopped)  # unarmed, neutral is not slowed down by slew
         held = self.guardian.holds if self.armed and not stopped else ""
+        for servo in self.servos:
+            servo.turn(float(sent[servo.place]) if self.armed and not stopped and not held else None)
         done = TickResult(self.ticks, time, sensed, commands, sent, stopped, held)
         if self.recorder:
             self._record(self.recorder, done)

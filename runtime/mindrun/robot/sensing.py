@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from math import inf, isfinite, nan
 from statistics import median
 from time import monotonic
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +35,15 @@ class Sample:
     values: tuple[float | None, ...]
     at: float
     fault: str = ""
+
+
+class SampleSource(Protocol):
+    """What has the samples of a sensor: its wire, and the newest of them."""
+
+    @property
+    def wire(self) -> SensorWire: ...
+    @property
+    def latest(self) -> Sample | None: ...
 
 
 class Sampler:
@@ -138,7 +148,7 @@ class FilteredReadings:
 class _State:
     """A sensor: its last samples for the median, and its last good readings with their time."""
 
-    source: Sampler
+    source: SampleSource
     sensor: Sensor
     window: deque[Sample]
     good: tuple[float, ...] = ()
@@ -148,7 +158,7 @@ class _State:
 class ReadingFilter:
     """The wired sensors of a mind; `measured` [graph.width] says which readings come of them, or of time alone."""
 
-    def __init__(self, graph: Graph, sources: Sequence[Sampler]) -> None:
+    def __init__(self, graph: Graph, sources: Sequence[SampleSource]) -> None:
         sensors = {sensor.name: sensor for sensor in graph.sensors}
         self._width = graph.width
         self.measured = rows_of(graph, measured_on_robot(graph, {source.wire.sensor for source in sources}))

@@ -1,9 +1,9 @@
 """A simulated world at real time, as its clients have it: a process of its own, and a connection to its socket.
 
 It is a process because the controller opens the sensors and the guardian the actuators. An exchange is a REQUEST with a
-name, then an ANSWER with what it holds. READ a sensor: its readings, float64. WRITE an actuator or an order: nothing,
-it has the value now. STATUS: JSON. WORLD: the row of a recording after the last tick (`world_row_of`). BOXES: the
-obstacles [boxes, 4], float64. Where one is refused, the reason.
+name, then an ANSWER with what it holds. READ a sensor: its readings, float64. WRITE an actuator, an order or a memory:
+nothing, it has the value now. STATUS: JSON. WORLD: the row of a recording after the last tick (`world_row_of`). BOXES:
+the obstacles [boxes, 4], float64. Where one is refused, the reason.
 """
 
 import json

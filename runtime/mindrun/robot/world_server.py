@@ -61,16 +61,19 @@ def _world(bundle: Path, task: str, seed: int, master: str) -> Any:
 
 
 class SimulatedScene:
-    """A world, the command that each actuator holds, and what clients may ask."""
+    """A world, the command that each actuator holds, the memories as the robot told them, and what clients may ask."""
 
     def __init__(self, world: Any) -> None:
         self.world = world
         self.commands = {actuator.name: float(actuator.kind.neutral) for actuator in world.graph.actuators}
+        self.memories: dict[str, float] = {}
+        self._cells = {memory.name for memory in world.graph.memories}
         self._places = {s.name: slice(s.start, s.start + s.width) for s in world.graph.sensors}
         self._readings = world.readings().astype("<f8")
 
     def tick(self) -> None:
         """Simulate one tick under the commands that the actuators hold; a world that has ended stands still."""
+        self.world.remember(self.memories)
         self.world.step(list(self.commands.values()))
         self._readings = self.world.readings().astype("<f8")
 
@@ -106,6 +109,9 @@ class SimulatedScene:
                 raise LookupError(f"there is no sensor {name}")
             return bytes(self._readings[self._places[name]].tobytes())
         if name in self._places and self.world.order(name, value):
+            return b""
+        if name in self._cells:
+            self.memories[name] = value
             return b""
         if name not in self.commands:
             raise LookupError(f"there is no actuator {name}")

@@ -6,7 +6,7 @@ bit what `Rollout` makes of its seed.
 """
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -200,6 +200,12 @@ class CommandedWorld:
                 return False
             tables.numbers[first : first + 1 + row["width"]] = 1.0, *kind.readings(value)
         return bool(rows)
+
+    def remember(self, cells: Mapping[str, float]) -> None:
+        """Let memories be these in the tick that comes, since the engine that commands has them."""
+        for memory in self.graph.memories:
+            if memory.name in cells:
+                self._state.mind.readings[memory.start, 0] = cells[memory.name]
 
     def step(self, commands: ArrayLike) -> None:
         """Make a tick under commands [actuators]; one that is not finite is neutral. Nothing once it has ended."""

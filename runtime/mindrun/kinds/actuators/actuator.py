@@ -44,6 +44,7 @@ class ActuatorKind(OfEnvironment):
 
     varying: tuple[str, ...] = ("delay",)  # the arguments that can differ from run to run
     drive: Drive | None = None  # what it does to a body, where it can move one
+    is_motor = False  # whether its command is a speed, for which friction may let it need a least one
     carries = False  # whether a sensor can sit on it and turn with it
     is_light = False  # whether it shines with its command
     reach: float | None = None  # ahead of the body, within which it takes items, in world units; None where none
@@ -92,6 +93,7 @@ class Pushing(ActuatorKind):
     slip: float
 
     varying: tuple[str, ...] = ("thrust", "delay", "noise", "slip")
+    is_motor = True
 
     def place(self, body: BodyKind) -> Point:
         """The point of the body that it pushes."""

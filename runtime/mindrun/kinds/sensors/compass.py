@@ -39,7 +39,7 @@ class Direction(Physical):
     """Direction in which a servo looks: 0.5 straight ahead, less on the left, more on the right, as a bearing.
 
     It goes round: noise leads from 0 to 1, which are both behind. It is where the servo is as the tick begins, and not
-    where it is sent.
+    where it is sent. On a robot it is reckoned from what the servo was sent, where robot.yaml names no driver for it.
     """
 
     of: Annotated[str, SERVO]
@@ -47,6 +47,7 @@ class Direction(Physical):
     circular = True
     scaled = True
     tells_servo = True
+    needs_driver = False
     blank = 0.5
 
     @staticmethod

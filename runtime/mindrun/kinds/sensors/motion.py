@@ -3,7 +3,7 @@
 from math import pi
 from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
 
-from mindrun.kinds.actuators.actuator import SIDE, Side
+from mindrun.kinds.actuators.actuator import SIDE, ActuatorKind, Side
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Physical, Row, Scene
 from mindrun.numbers.quantity import POSITIVE, RATIO, Quantity, Reference
@@ -27,6 +27,10 @@ class Speed(Physical):
     scaled = True
     unit = "m/s"
     blank = rest = still = 0.5
+
+    def sees(self, actuator: ActuatorKind) -> bool:
+        """True of the motor of a car."""
+        return actuator.drive == "motor"
 
     def row(self, scene: Scene) -> Row:
         """The inherited columns and the gain of a unit a second."""
@@ -56,6 +60,10 @@ class Odometer(Physical):
     scaled = True
     unit = "m/s"
     blank = rest = still = 0.5
+
+    def sees(self, actuator: ActuatorKind) -> bool:
+        """True of what drives on its side."""
+        return actuator.is_motor and actuator.mounted == self.side
 
     def row(self, scene: Scene) -> Row:
         """The gain of a unit a second, and the side as `part`: −1 left, 1 right."""

@@ -35,6 +35,7 @@ class Order(SensorKind):
     timeout: Annotated[float, PAUSE] = 0.0
 
     is_given = is_order = True
+    needs_driver = False
 
     @property
     def choices(self) -> int:

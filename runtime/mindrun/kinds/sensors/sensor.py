@@ -14,6 +14,7 @@ from mindrun.numbers.expression import Formula
 from mindrun.numbers.quantity import ANGLE, RATIO, SENSOR, SERVO, TICKS
 
 if TYPE_CHECKING:
+    from mindrun.kinds.actuators.actuator import ActuatorKind
     from mindrun.numbers.arrays import Reader
 
 Row = Mapping[str, float]  # columns of the lanes' table of sensors
@@ -81,6 +82,7 @@ class SensorKind(AboutThing, OfEnvironment):
     unit = ""  # of a driver that measures the same: m for a length, m/s for a speed
     is_given = False  # whether somebody has to read it: the engine does not compute it
     is_order = False  # whether it is what somebody says
+    needs_driver = True  # whether on a robot it is not known without one
     keeps_lost = False  # whether a reading that fails is the one before, and not `blank`
     remembered = 0  # how many numbers the lanes keep of each of its readings
     blank, rest = 0.0, 0.0  # what it reads where there is nothing to measure, and in its dead zone
@@ -128,6 +130,10 @@ class SensorKind(AboutThing, OfEnvironment):
     def misfit(self, kinds: Mapping[str, SensorKind]) -> Flaw | None:
         """The error in what it is computed from, one of the sensors of these kinds, or None."""
         return None
+
+    def sees(self, actuator: ActuatorKind) -> bool:
+        """True if it reads, of a robot off the ground, whether an actuator turns."""
+        return False
 
     @property
     def battery(self) -> BatteryModel | None:

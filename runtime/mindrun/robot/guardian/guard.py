@@ -140,6 +140,18 @@ def started(channel: Channel, command: float) -> float:
     return rest + (end - rest) * (channel.least + (1.0 - channel.least) * share)
 
 
+def meant(channel: Channel, value: float) -> float:
+    """The command that is `started` as this value: neutral for what is less than the least share away from it."""
+    if channel.trim == 0 and channel.least == 0:
+        return value
+    rest = min(max(channel.neutral + channel.trim, 0.0), 1.0)
+    if value == rest:
+        return channel.neutral
+    end, spare = float(value > rest), 1.0 - channel.least
+    share = max(0.0, (value - rest) / (end - rest) - channel.least) / spare if spare else 1.0
+    return channel.neutral + (end - channel.neutral) * share
+
+
 def turned(channel: Channel, value: float) -> float:
     """A value as the device counts: a reversed gripper's neutral must open it, too."""
     return 1.0 - value if channel.reversed else value
