@@ -41,6 +41,8 @@ def build(
     skills, most = skill_rows(graph, reached, weights, learners, addresses, programs)
     rewards, ends = task_rows.reward_rows(task, programs), task_rows.end_rows(task, programs)
     presences = task_rows.presence_rows(task, programs)
+    things = task_rows.thing_rows(graph, task, parameters, programs)
+    obstacles = task_rows.obstacle_rows(task, parameters, programs)
     used, aside = used_sensors(graph, reached, task)
     exact = promised_sensors(graph, reached, used + aside)
     sensors, remembered = sensor_rows(graph, (used, aside, exact), task, programs, parameters)
@@ -52,8 +54,8 @@ def build(
         **sensors, **skills, **task_rows.walker_rows(task, graph.tick, parameters),
         world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside + exact, master),
         codes=np.array(programs.rows, CODE), actuators=driven, memories=memory_rows(graph),
-        things=task_rows.thing_rows(graph, task, parameters), loose=task_rows.loose_rows(task, graph.tick, parameters),
-        obstacles=task_rows.obstacle_rows(task, parameters), options=task_rows.option_rows(task),
+        things=things, obstacles=obstacles, makings=parameters.makings(), options=task_rows.option_rows(task),
+        loose=task_rows.loose_rows(task, graph.tick, parameters),
         walls=np.array(walls, np.float64).reshape(-1, BOX_COLUMNS),
         measures=measures, events=events, ends=ends, rewards=rewards,
         presences=presences, choices=np.array(parameters.choices, np.float64),

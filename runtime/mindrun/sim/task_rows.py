@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from itertools import accumulate, count
-from math import copysign
 from typing import Any
 
 import numpy as np
@@ -78,7 +77,7 @@ def hash_numbers(task: Task) -> tuple[int, list[int], list[int]]:
     return robot, numbers, [number % size for number in (robot, *numbers)]
 
 
-def thing_rows(graph: Graph, task: Task, parameters: Parameters) -> Array:
+def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Programs) -> Array:
     """Rows of THING: all things of the task but obstacles, as in `things_of`."""
     rows: list[Row] = []
     asked = {(event.outcome, event.thing) for event in task.events if event.outcome}
@@ -93,7 +92,7 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters) -> Array:
         low, high = kind.distances(task.scene)
         x, y = kind.places[copy] if kind.places else (0.0, 0.0)
         is_drawn = bool(kind.options) or (kind.walks and not kind.wanders)
-        own = _drawn_place(thing, parameters) if any(thing.by) else {}
+        own = _drawn_place(thing, parameters, programs)
         if kind.is_loose:  # not in the robot
             low = max(low, graph.body.radius + kind.largest * HALF_DIAGONAL)
         row: dict[str, float] = {
@@ -104,7 +103,7 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters) -> Array:
             "loose": next(loose) if kind.is_loose else -1, "settles": kind.is_loose and zones_stay,
             "walker": next(walkers) if kind.walks else -1, "turn": turns[1 + number],
             "copy": copy, "copies": kind.copies, "option": options, "options": len(kind.options),
-            "x_row": SAME_IN_EVERY_RUN, "y_row": SAME_IN_EVERY_RUN, **_region(kind, rows_by_name(task)), **own,
+            **_region(kind, rows_by_name(task)), **own,
         }  # fmt: skip
         options += len(kind.options) if copy + 1 == kind.copies else 0
         for what in ("reached", "delivered"):
@@ -125,21 +124,26 @@ def _region(kind: ThingKind, places: Mapping[str, range]) -> Row:
     return {"is_within": True, "left": left, "right": right, "below": below, "above": above}
 
 
-def _drawn_place(thing: Thing, parameters: Parameters) -> Row:
-    """The columns of a thing at numbers that the task draws: x and y are their signs where these are rows."""
-    place = thing.kind.spots[0]
-    x, y = (copysign(1.0, number) if number else at for number, at in zip(thing.by, place, strict=True))
-    rows = dict(zip(("x_row", "y_row"), map(parameters.given, thing.by), strict=True))
-    return {**rows, "x": x, "y": y, "options": 0}
+def _drawn_place(thing: Thing, parameters: Parameters, programs: Programs) -> Row:
+    """The columns of where a thing is that the task draws, which go to `programs`; of no rows where it does not."""
+    if not thing.by:
+        return {"x_row": SAME_IN_EVERY_RUN, "y_row": SAME_IN_EVERY_RUN}
+    x, y = (parameters.made(*programs.add(program)) for program in thing.by)
+    return {"x_row": x, "y_row": y, "options": 0}
 
 
 def presence_rows(task: Task, programs: Programs) -> Array:
-    """Rows of PRESENCE, one for each copy; their conditions go to `programs`."""
+    """Rows of PRESENCE, one for each copy, or one for all boxes of a thing; their conditions go to `programs`."""
     rows: list[Row] = []
-    for row, thing in enumerate(things_of(task)):
-        if thing.when:
-            when, whens = programs.add(thing.when)
-            rows.append({"thing": row, "when": when, "whens": whens})
+    places, boxes = rows_by_name(task), boxes_by_name(task)
+    for thing in task.things:
+        its = (boxes if thing.kind.is_obstacle else places)[thing.name]
+        step = len(its) if thing.kind.is_obstacle and not thing.many else 1
+        for copy, first in enumerate(its[:: max(1, step)]):
+            if program := thing.presence(copy):
+                when, whens = programs.add(program)
+                about = {"thing": -1, "box": first, "boxes": step} if thing.kind.is_obstacle else {"thing": first}
+                rows.append({**about, "when": when, "whens": whens})
     return records(rows, codes.PRESENCE)
 
 
@@ -149,15 +153,14 @@ def option_rows(task: Task) -> Array:
     return np.array([place for thing in apart for place in thing.kind.options], np.float64).reshape(-1, 2)
 
 
-def obstacle_rows(task: Task, parameters: Parameters) -> Array:
+def obstacle_rows(task: Task, parameters: Parameters, programs: Programs) -> Array:
     """Rows of OBSTACLE."""
     rows: list[Row] = []
     option = sum(len(thing.kind.options) for thing in task.things if not thing.kind.is_obstacle)
     for thing in (thing for thing in task.things if thing.kind.is_obstacle):
-        kind, own = thing.kind, _drawn_place(thing, parameters) if any(thing.by) else {}
+        kind, own = thing.kind, _drawn_place(thing, parameters, programs)
         low, high = kind.distances(task.scene)
         row = {"first": kind.size.first, "last": kind.size.last, "low": low, "high": high, "option": option}
-        row |= {"x_row": SAME_IN_EVERY_RUN, "y_row": SAME_IN_EVERY_RUN}
         option += len(kind.options)
         rows.extend({**row, **each, **own} for each in kind.rows(task.scene))
     return records(rows, codes.OBSTACLE)
@@ -225,8 +228,7 @@ def measure_rows(task: Task, parameters: Parameters) -> tuple[Array, int]:
             "over": measure.over, "ring": ring if measure.over else 0, "beyond": measure.beyond,
         })  # fmt: skip
         ring += measure.over
-    drawn = range(1, len(task.draws) + 1)
-    rows += [{"kind": codes.DRAWN_NUMBER, "row": parameters.given(number)} for number in drawn]
+    rows += [{"kind": codes.DRAWN_NUMBER, "row": row} for row in parameters.given]
     return records(rows, codes.MEASURES), ring
 
 

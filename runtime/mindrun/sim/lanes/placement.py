@@ -80,13 +80,10 @@ def place_for(tables, world, i, is_begun, lane):
 
 
 def at_drawn(world, placed, lane):
-    """The place of something, whose x and y may be numbers that the task draws, or these negated."""
-    x, y = placed.x, placed.y
+    """The place of something, whose x and y may be made of numbers that the task draws."""
     if placed.x_row >= 0:
-        x *= world.numbers[placed.x_row, lane]
-    if placed.y_row >= 0:
-        y *= world.numbers[placed.y_row, lane]
-    return x, y
+        return world.numbers[placed.x_row, lane], world.numbers[placed.y_row, lane]
+    return placed.x, placed.y
 
 
 def choose(tables, world, i, is_begun, lane):
