@@ -29,7 +29,7 @@ TOKENS = {
     "LETTER": PART,
     "ENVIRONMENT": "string.unquoted",
     **dict.fromkeys(("COMPUTED", "NUMBERED", "SEVERAL", "ORDERED", "BROKEN", "GYMNASIUM"), KIND),
-    **dict.fromkeys(("FROM", "TO", "BY", "ON", "FACING", "AT"), KEY),
+    **dict.fromkeys(("FROM", "TO", "BY", "ON", "FACING", "AT", "ALONG"), KEY),
     **dict.fromkeys(("EXTREME", "AND", "OR", "TICK", "LEVEL"), WORD),
     **dict.fromkeys(("SIGN", "SPACED", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
 }

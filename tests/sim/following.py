@@ -2,22 +2,21 @@
 
 import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from itertools import islice
 
 import numpy as np
 from mindrun.engine.engine import Engine
 from mindrun.graph.draws import drawn_numbers
-from mindrun.graph.graph import Graph, Program
+from mindrun.graph.graph import Graph
 from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.quantity import Region, Span
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, Trace, trace
 
-from tests.plain import postfix
 from tests.sim.plain_sensors import ordered
 from tests.sim.plain_world import OPENED, PlainWorld
-from tests.sim.varied import as_drawn, stuck
+from tests.sim.varied import as_drawn, of_drawn, stuck
 
 
 def follow(rollout: Rollout, engine: Engine, seed: int) -> Counter[str]:
@@ -74,22 +73,16 @@ def hold_draws(plain: PlainWorld, run: Trace, seed: int) -> None:
         there = [is_any and (not thing.many or copy < drawn[thing.many - 1]) for copy in range(len(its))]
         assert [math.isnan(x) or x == OPENED for x, *_ in its] == [not each for each in there]
         places = {(x, y) for (x, y, *_), is_there in zip(its, there, strict=True) if is_there}
-        if thing.by:
+        if thing.by and not kind.ways:
             at, jitter = [of_drawn(program, drawn) for program in thing.by], getattr(kind, "jitter", 0.0)
             assert all(math.dist(place, at) <= 2 * jitter for place in places)
-        elif kind.is_obstacle:
+        elif kind.is_obstacle or kind.ways:
             continue
         elif kind.options:
             assert places <= set(kind.options)
             assert len(places) == min(sum(there), len(set(kind.options)))
         elif kind.within:
             assert all(any(inside(*place, *zone) for zone in zones_of(kind.within, standing)) for place in places)
-
-
-def of_drawn(program: Program, drawn: Sequence[float]) -> float:
-    """The value of a program of what a task has drawn."""
-    with np.errstate(all="ignore"):
-        return float(postfix([("number", drawn[int(x)]) if word == "drawn" else (word, x) for word, x in program], ()))
 
 
 def zones_of(within: Region, standing: Mapping[str, list[list[float]]]) -> list[tuple[float, ...]]:

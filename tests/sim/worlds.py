@@ -271,7 +271,8 @@ def _presence(draws: tuple[Draw, ...]) -> st.SearchStrategy[Program]:
 def _drawn_places(draw: st.DrawFn, thing: Thing, draws: tuple[Draw, ...]) -> Thing:
     """A thing, now and then one that stands at a single place at what is drawn."""
     kind: Any = thing.kind
-    if not draws or len(kind.at) != 1 or kind.or_ or draw(st.booleans()):
+    along = getattr(kind, "along", ())
+    if not draws or not (along or len(kind.at) == 1) or kind.or_ or draw(st.booleans()):
         return thing
     drawn = st.integers(0, len(draws) - 1).map(lambda i: (("drawn", i),))
     number = st.sampled_from([0.5, -2.0, 3.0]).map(lambda x: (("number", x),))
@@ -283,9 +284,11 @@ def _drawn_places(draw: st.DrawFn, thing: Thing, draws: tuple[Draw, ...]) -> Thi
         )
         return st.just((("number", at),)) | drawn | near
 
-    by = tuple(draw(coordinates(at)) for at in kind.at[0])
-    first, *others = ends_of(by, draws)
-    return replace(thing, kind=replace(kind, at=(first,), or_=tuple((place,) for place in others)), by=by)
+    by = tuple(draw(coordinates(x)) for at in along or kind.at for x in at)
+    ends = (tuple(zip(end[::2], end[1::2], strict=True)) for end in ends_of(by, draws))
+    first, *others = ends
+    made = replace(kind, **{"along" if along else "at": first}, or_=tuple(others))
+    return replace(thing, kind=made, by=by) if made.mistake(None) is None else thing
 
 
 @st.composite

@@ -81,7 +81,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         return Name(str(token), self._span(token))
 
     TITLE = LETTER = PART = WHOLE = TASK = COMPUTED = NUMBERED = SEVERAL = ORDERED = BROKEN = NAME
-    GYMNASIUM = ENVIRONMENT = FROM = TO = BY = ON = FACING = AT = NAME
+    GYMNASIUM = ENVIRONMENT = FROM = TO = BY = ON = FACING = AT = ALONG = NAME
 
     def COMPARE(self, token: Token) -> str:  # noqa: N802
         """A sign between two values."""

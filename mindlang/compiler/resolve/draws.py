@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence, Set
 from itertools import product
 from math import isnan
+from typing import Any
 
 from mindrun.graph.draws import MAX_VALUES, Draw, ends_of, intervals_of
 from mindrun.kinds.scenes.scene import SceneKind
@@ -28,6 +29,7 @@ from mindlang.compiler.syntax import (
     Name,
     Numbers,
     Phrase,
+    Points,
     Range,
     Sums,
     of_form,
@@ -88,18 +90,19 @@ def with_drawn(
     by: tuple[Program, ...] = ()
     for argument in phrase.arguments:
         match argument.key.text, argument.value:
-            case "at", Numbers() | Sums() as value if _is_computed(value, draws):
-                by = _coordinates(value, draws, unread, findings)
+            case ("at", Numbers() | Sums()) | ("along", Points(by=None)) if _is_computed(argument.value, draws):
+                by = _coordinates(argument.value, draws, unread, findings)
                 if not by:
                     return None, (), 0
-                changed["at"] = _at_each(argument, ends_of(by, [*draws.values()]))
+                changed[argument.key.text] = _at_each(argument, ends_of(by, [*draws.values()]))
             case "count", Name(text) if text in draws:
                 if not _check_count(argument.value, draws[text], findings):
                     return None, (), 0
                 many = [*draws].index(text) + 1
                 most = Amount(draws[text].interval[1], "", argument.value.span)
                 changed["count"] = [replace(argument, value=Numbers((most,), argument.value.span))]
-    if by and any(each.key.text in ("or", "count") for each in phrase.arguments):
+    others = ("or",) if "along" in changed else ("or", "count")
+    if by and any(each.key.text in others for each in phrase.arguments):
         hint = "Write a thing for each of them, or leave the drawn number out."
         findings.error("place-for-many", phrase.span, "A drawn number is the place of one thing.", hint)
         return None, (), 0
@@ -111,24 +114,33 @@ def with_drawn(
 def may_leave(kind: ThingKind, by: Sequence[Program], draws: Sequence[Draw], scene: SceneKind) -> bool:
     """True if a thing at a place that is drawn may stand outside of a scene, or not with all of it inside."""
     ends = [[end for _, found in intervals_of(program, draws) for end in found] for program in by]
-    corners = product(*((min(each), max(each)) for each in ends))
-    return bool(by) and not all(scene.has_room((x, y), kind.largest / 2) for x, y in corners)
+    hulls = [(min(each), max(each)) for each in ends]
+    corners = (corner for place in zip(hulls[::2], hulls[1::2], strict=True) for corner in product(*place))
+    return not all(scene.has_room(corner, kind.largest / 2) for corner in corners)
 
 
-def _is_computed(value: Numbers | Sums, draws: Mapping[str, Draw]) -> bool:
+def _places(value: Any) -> tuple[Numbers | Sums, ...]:
+    """The places of a value, as written."""
+    return value.points if isinstance(value, Points) else (value,)
+
+
+def _is_computed(value: Any, draws: Mapping[str, Draw]) -> bool:
     """True if a place is more than two numbers that are said; one of other than two is reported where all are."""
-    return isinstance(value, Sums) or any(each.name in draws for each in value.amounts)
+    return any(isinstance(at, Sums) or any(each.name in draws for each in at.amounts) for at in _places(value))
 
 
-def _coordinates(
-    value: Numbers | Sums, draws: Mapping[str, Draw], unread: Set[str], findings: Findings
-) -> tuple[Program, ...]:
+def _coordinates(value: Any, draws: Mapping[str, Draw], unread: Set[str], findings: Findings) -> tuple[Program, ...]:
     """The programs of x and y; none after reporting what is wrong."""
-    written = value.sums if isinstance(value, Sums) else [as_expression(each) for each in value.amounts]
-    if len(written) != PLACE_NUMBERS:
-        hint = "A sign with a space on both sides is plus or minus; one that touches a number begins the next: 10 -20."
-        findings.error("not-a-place", value.span, "A place is two numbers, along x and along y.", hint)
-        return ()
+    written = list[Expression]()
+    for at in _places(value):
+        both = at.sums if isinstance(at, Sums) else [as_expression(each) for each in at.amounts]
+        written += both
+        if len(both) != PLACE_NUMBERS:
+            hint = (
+                "A sign with a space on both sides is plus or minus; one that touches a number begins the next: 10 -20."
+            )
+            findings.error("not-a-place", at.span, "A place is two numbers, along x and along y.", hint)
+            return ()
     visible = Visible(
         {}, unread=unread, draws=draws, made_of="numbers, and of what the task draws", where="A drawn place"
     )
@@ -138,7 +150,7 @@ def _coordinates(
         program = tuple((word, indices.get(x, x) if word == "drawn" else x) for word, x in formula)
         if is_valid_program(program) and _check_coordinate(each, program, [*draws.values()], findings):
             found.append(program)
-    return tuple(found) if len(found) == PLACE_NUMBERS else ()
+    return tuple(found) if len(found) == len(written) else ()
 
 
 def _check_coordinate(written: Expression, program: Program, draws: Sequence[Draw], findings: Findings) -> bool:
@@ -170,8 +182,14 @@ def _check_count(name: Name, draw: Draw, findings: Findings) -> bool:
 
 
 def _at_each(argument: Argument, places: Sequence[Sequence[float]]) -> list[Argument]:
-    """The argument of the first place, and that of all others, if there are any."""
+    """The argument of the first place or way, and that of all others, if there are any."""
     span = argument.span
-    first, *others = (Numbers(tuple(Amount(x, "", span) for x in place), span) for place in places)
+
+    def said(numbers: Sequence[float]) -> Numbers | Points:
+        pairs = zip(numbers[::2], numbers[1::2], strict=True)
+        points = [Numbers(tuple(Amount(x, "", span) for x in pair), span) for pair in pairs]
+        return points[0] if len(points) == 1 else Points(tuple(points), None, span)
+
+    first, *others = map(said, places)
     instead = [Argument(Name("or", span), Either(tuple(others), span), span)] if others else []
     return [replace(argument, value=first), *instead]

@@ -217,7 +217,10 @@ def _draw_flaws(task: Task) -> Iterator[str]:
     for thing in task.things:
         if thing.when and not (is_condition(thing.when) and _computes(thing.when, (), draws=len(task.draws))):
             yield "has a thing of which nobody knows whether it is there"
-        is_single = thing.kind.copies == 1 and bool(thing.kind.spots) and len(thing.by) == COORDINATES
+        along = getattr(thing.kind, "along", ())
+        is_single = (bool(along) or thing.kind.copies == 1) and len(thing.by) == COORDINATES * len(
+            along or thing.kind.at
+        )
         if thing.by and not (is_single and all(_is_coordinate(program, task.draws) for program in thing.by)):
             yield "has a thing of which nobody knows where it is"
         drawn = thing.many > 0 and next(iter(task.draws[thing.many - 1 :]), None)

@@ -42,6 +42,7 @@ def build(
     rewards, ends = task_rows.reward_rows(task, programs), task_rows.end_rows(task, programs)
     presences = task_rows.presence_rows(task, programs)
     things = task_rows.thing_rows(graph, task, parameters, programs)
+    walkers = task_rows.walker_rows(task, graph.tick, parameters, programs)
     obstacles = task_rows.obstacle_rows(task, parameters, programs)
     used, aside = used_sensors(graph, reached, task)
     exact = promised_sensors(graph, reached, used + aside)
@@ -51,7 +52,7 @@ def build(
     events, patches, arrivals = task_rows.event_rows(task)
     walls = [wall for thing in task.things for wall in thing.kind.walls]
     tables = Tables(
-        **sensors, **skills, **task_rows.walker_rows(task, graph.tick, parameters),
+        **sensors, **skills, **walkers,
         world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside + exact, master),
         codes=np.array(programs.rows, CODE), actuators=driven, memories=memory_rows(graph),
         things=things, obstacles=obstacles, makings=parameters.makings(), options=task_rows.option_rows(task),

@@ -92,6 +92,7 @@ THING = _columns(
 LOOSE = _columns(i8="thing is_round density friction slower number turn")
 WALKING = _columns(i8="thing way ways copy is_anywhere is_drawn step turn after afters aim", f8="range")
 WAY = _columns(i8="first places")
+CORNER = _columns(i8="next x_row y_row", f8="x y")
 OBSTACLE = _columns(i8="columns rows count option options x_row y_row", f8="first last grid jitter x y low high")
 MEASURES = _columns(i8="kind thing things of ofs over ring row", f8="beyond")
 MAKING = _columns(i8="row code length")
@@ -170,7 +171,7 @@ class Tables(Block):
     loose: Annotated[Array, table(LOOSE)]
     walkers: Annotated[Array, table(WALKING)]
     ways: Annotated[Array, table(WAY)]  # that walkers go along
-    corners: Annotated[Array, table(F8, 2)]  # [places, 3]: the places of ways, and the number of the one after each
+    corners: Annotated[Array, table(CORNER)]  # the places of ways
     options: Annotated[Array, table(F8, 2)]  # [places, 2]: those of which one is drawn
     makings: Annotated[Array, table(MAKING)]  # of numbers that are made of those that the task draws
     presences: Annotated[Array, table(PRESENCE)]  # of things and boxes that are not there in every run
