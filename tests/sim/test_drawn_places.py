@@ -117,16 +117,10 @@ def test_there_are_as_many_as_are_drawn_where_they_would_be_anyway() -> None:
 
 def test_a_wall_is_there_when_its_condition_holds_for_all_who_ask() -> None:
     fence = "at 9 0\n  contains fence is wall from 5 -9 to 5 9 when side < 8"
-    eye = "sensor goal_bearing is bearing of goal\nsensor ahead is range_finder at 0 deg range 10\nsensor near is distance of fence\n"
-    text = (
-        MIND.replace("THING", fence)
-        .replace("TICKS", "900")
-        .replace("SCENE", "arena size 40")
-        .replace(" at 0 0", " at 0 0 facing 0 deg")
-    )
-    text = text.replace("sensor goal_bearing is bearing of goal\n", eye).replace(
-        "drives left", "reads ahead\n  reads near\n  drives left", 1
-    )
+    eyes = "sensor ahead is range_finder at 0 deg range 10\nsensor near is distance of fence\nskill"
+    text = MIND.replace("THING", fence).replace("TICKS", "900").replace("SCENE", "arena size 40")
+    text = text.replace(" at 0 0", " at 0 0 facing 0 deg").replace("skill", eyes, 1)
+    text = text.replace("drives left", "reads ahead\n  reads near\n  drives left", 1)
     rollout = Rollout(Policy(compile_text(text), {}), "World", "Go")
     for seed in range(6):
         run, is_there = trace(rollout, seed), drawn_numbers(rollout.task.draws, seed)["side"] < 8

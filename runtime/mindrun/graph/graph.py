@@ -134,9 +134,9 @@ class Thing:
     """Something that a task's world contains, in the runs in which `when` holds, or in all where that is empty.
 
     `by` are its x and its y, or all of its way, where the task draws them: programs of numbers alone and of those that
-    the task draws. Its kind is then at every place that this may be, or on every way. Of its copies there are as many as
-    the task draws with number `many` of its `draws`, from 1 on, and its kind has the most that this may be; all are
-    there where it is 0.
+    the task draws. Its kind is then at every place that this may be, or on every way. Of its copies there are as many
+    as the task draws with number `many` of its `draws`, from 1 on, and its kind has the most that this may be; all
+    are there where it is 0.
     """
 
     name: str
