@@ -16,7 +16,6 @@ from mindrun.numbers.expression import CHOICES, OPERATORS, is_condition, is_vali
 from mindrun.numbers.quantity import COORDINATE, NUMBER, SKILL, THING, UNSAID, fits
 
 NAME = re.compile(r"[^\W\d_]\w*([+.]\w+)*")
-COORDINATES = 2  # of a place
 MIN_TICK_SECONDS, MAX_TICK_SECONDS = 1e-9, 1e9  # seconds of a tick
 
 
@@ -218,9 +217,8 @@ def _draw_flaws(task: Task) -> Iterator[str]:
         if thing.when and not (is_condition(thing.when) and _computes(thing.when, (), draws=len(task.draws))):
             yield "has a thing of which nobody knows whether it is there"
         along = getattr(thing.kind, "along", ())
-        is_single = (bool(along) or thing.kind.copies == 1) and len(thing.by) == COORDINATES * len(
-            along or thing.kind.at
-        )
+        coordinates = sum(map(len, along or thing.kind.at))
+        is_single = (bool(along) or thing.kind.copies == 1) and len(thing.by) == coordinates
         if thing.by and not (is_single and all(_is_coordinate(program, task.draws) for program in thing.by)):
             yield "has a thing of which nobody knows where it is"
         drawn = thing.many > 0 and next(iter(task.draws[thing.many - 1 :]), None)

@@ -78,6 +78,16 @@ def hash_numbers(task: Task) -> tuple[int, list[int], list[int]]:
     return robot, numbers, [number % size for number in (robot, *numbers)]
 
 
+def content_rows(graph: Graph, task: Task, parameters: Parameters, programs: Programs) -> dict[str, Array]:
+    """The tables of what a task contains; programs of where it is, and of whether it is there, go to `programs`."""
+    return {
+        "things": thing_rows(graph, task, parameters, programs),
+        "obstacles": obstacle_rows(task, parameters, programs),
+        "presences": presence_rows(task, programs),
+        **walker_rows(task, graph.tick, parameters, programs),
+    }
+
+
 def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Programs) -> Array:
     """Rows of THING: all things of the task but obstacles, as in `things_of`."""
     rows: list[Row] = []
