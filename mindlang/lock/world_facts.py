@@ -195,10 +195,9 @@ class Worlds:
         for thing in task.things:
             if thing.when or thing.by or thing.many:
                 place = [infix(each, self._leaf_of(task)) for each in thing.by]
+                place = [f"+{each}" if each[0].isalpha() else each for each in place]
                 words = [f"contains {thing.name} is {names()[type(thing.kind)]}"]
-                words += (
-                    [f"at {' '.join(f'+{each}' if each[0].isalpha() else each for each in place)}"] if place else []
-                )
+                words += ["along" if thing.kind.ways else "at", *place] if place else []
                 words += [f"count {task.draws[thing.many - 1].name}"] if thing.many else []
                 words += [f"when {infix(thing.when, self._leaf_of(task))}"] if thing.when else []
                 yield " ".join(words)
