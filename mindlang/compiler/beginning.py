@@ -150,7 +150,7 @@ class Beginning:
             spots += [Outline((place,)) for place in thing.kind.spots]
             for other, other_role, others in () if its == "fixed" else placed[:number]:
                 mine = spots if other_role == "fixed" else outlines
-                may_be_apart = other_role != "fixed" and bool(thing.when or other.when)
+                may_be_apart = not other.is_always_there or not (other_role == "fixed" or thing.is_always_there)
                 if {its, other_role} in APART and not may_be_apart and any(overlap(a, b) for a in mine for b in others):
                     yield thing, other
 
@@ -191,7 +191,7 @@ class Beginning:
         return sum(any(self._is_inside(zone, middle, place) for zone, middle in inside) for place in placed)
 
     def _placed(self, name: str) -> Iterable[tuple[ThingKind, Place]]:
-        there = (each for each in self.things if self.may or not each.when)
+        there = (each for each in self.things if self.may or each.is_always_there)
         kinds = (each.kind for each in there if each.kind and each.name == name)
         return ((kind, place) for kind in kinds for place in self._begins(kind))
 

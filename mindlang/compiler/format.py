@@ -131,8 +131,13 @@ def _words(code: str, start: Start) -> Iterator[tuple[int, int, str]]:
     """Offsets (start, end) of the words of a line, and the space that belongs after each: none after a sign."""
     from lark import Token
 
-    parts = (tree.children[0] for tree in grammar().parse(code, start=start).iter_subtrees() if tree.children)
+    whole = grammar().parse(code, start=start)
+    parts = (tree.children[0] for tree in whole.iter_subtrees() if tree.children)
     signs = {part.start_pos for part in parts if isinstance(part, Token) and part.type in ("SIGN", "MINUS")}
+    for numbers in whole.find_data("numbers"):
+        inside = [part for part in numbers.scan_values(bool) if isinstance(part, Token)]
+        is_list = not any(part.type in ("NAME", "SCALE") for part in inside) and not [*numbers.find_data("nested")]
+        signs |= {part.start_pos for part in inside if is_list and part.type == "SPACED"}  # there no sign ever adds
     tokens = list(grammar().parse_interactive(code, start=start).iter_parse())
     for token, following in zip(tokens, [*tokens[1:], None], strict=True):
         first = token.start_pos or 0

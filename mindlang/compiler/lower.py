@@ -96,7 +96,7 @@ def _task(task: model.Task, places: Places) -> graph.Task:
     rewards = tuple(_reward(reward, events, places) for reward in task.rewards)
     counts = tuple(dict.fromkeys(_index(event, events) for event in task.counts))
     whens = ((each, lower_condition(each.when, places) if each.when else ()) for each in task.things)
-    things = tuple(graph.Thing(each.name, each.kind, when, each.by) for each, when in whens)
+    things = tuple(graph.Thing(each.name, each.kind, when, each.by, each.many) for each, when in whens)
     return graph.Task(
         task.name, task.scene, things, task.ticks, tuple(places.measures), tuple(events), ends, rewards, counts
     , task.start, task.varies, task.fails, task.draws)  # fmt: skip

@@ -17,6 +17,7 @@ from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.kinds.things.thing import ThingKind
+from mindrun.numbers.expression import Program
 from msgspec import Struct
 from networkx import DiGraph
 
@@ -46,11 +47,17 @@ class Part(Struct, Generic[K], frozen=True):
 class Thing(Part[ThingKind], frozen=True):
     """A thing of a task. It is there in the runs in which the condition `when` holds, or in all.
 
-    `by` says which numbers that the task draws are its x and its y, as in `graph.Thing`.
+    `by` and `many` say where it is and how many there are, where that is drawn, as in `graph.Thing`.
     """
 
     when: syntax.When | None = None
-    by: tuple[int, int] = (0, 0)
+    by: tuple[Program, ...] = ()
+    many: int = 0
+
+    @property
+    def is_always_there(self) -> bool:
+        """True if it is there in every run, with all of its copies."""
+        return not self.when and not self.many
 
 
 class Edge(Struct, frozen=True):

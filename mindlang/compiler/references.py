@@ -172,6 +172,6 @@ def _in_arguments(written: Iterable[syntax.Argument], classes: Iterable[type[Any
             case Name(), Noun(noun="servo"):
                 yield value, ("actuator",)
             case Name(), Quantity():
-                yield value, ("number",)
+                yield value, ("number", "draw")
             case Name(), None if key == "from":
                 yield value, ("skill",)

@@ -57,6 +57,13 @@ class Numbers(Struct, frozen=True):
     span: Span
 
 
+class Sums(Struct, frozen=True):
+    """`10 -20 + 40 * side`: several numbers, of which some are computed."""
+
+    sums: tuple["Expression", ...]
+    span: Span
+
+
 class Range(Struct, frozen=True):
     """`4 to 8` or `3 to 1 by 0.1`."""
 
@@ -69,7 +76,7 @@ class Range(Struct, frozen=True):
 class Points(Struct, frozen=True):
     """`-20 10 to 5 10 to 5 0`: places one after the other, as written; a range has one number on each side."""
 
-    points: tuple[Numbers, ...]
+    points: tuple[Numbers | Sums, ...]
     by: Amount | None
     span: Span
 
@@ -91,11 +98,11 @@ class AnyName(Struct, frozen=True):
 class Either(Struct, frozen=True):
     """`or 10 0 or 0 10`: what may stand instead of the value before it; a range has one number on each side."""
 
-    options: tuple[Numbers | Range | Points | Name, ...]
+    options: tuple[Numbers | Sums | Range | Points | Name, ...]
     span: Span
 
 
-Value = Numbers | Range | Points | Name | AnyName | Text | Either
+Value = Numbers | Sums | Range | Points | Name | AnyName | Text | Either
 
 
 class Argument(Struct, frozen=True):
@@ -528,7 +535,8 @@ def expressions_in(*nodes: Any) -> Iterator[Expression]:
                 yield node
             case Header(at=at, gate=gate):
                 yield from expressions_in(at, gate)
-            case Contains(when=when):
+            case Contains(phrase=phrase, when=when):
+                yield from (each for of in phrase.arguments if isinstance(of.value, Sums) for each in of.value.sums)
                 yield from expressions_in(when)
             case Sends() | Gate() | Outcome() | When() | Comparison() | Rewards():
                 yield from expressions_in(*astuple(node))

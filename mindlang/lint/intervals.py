@@ -1,20 +1,17 @@
 """Interval arithmetic: the range of an expression's value, and conditions that hold always or never."""
 
 from collections.abc import Callable, Iterator, Sequence
-from itertools import product
-from math import inf, isnan
-from operator import add, sub, truediv
+from math import inf
 from typing import Any, NamedTuple
 
-from mindrun.numbers.expression import OPERATIONS, OPERATORS, TRUTHS, Formula, fold
+from mindrun.numbers.expression import OPERATIONS, OPERATORS, Formula, fold
+from mindrun.numbers.intervals import UNIT_INTERVAL, Interval, negated
+from mindrun.numbers.intervals import combined as combined_interval
 
 from mindlang.compiler.syntax import Comparison, Expression, When
 
-Interval = tuple[float, float]
 Readings = Callable[[str], Interval]  # the range of each reading
 Range = Callable[[Expression], Interval]  # in which the value of an expression lies
-UNBOUNDED: Interval = (-inf, inf)
-UNIT_INTERVAL: Interval = (0.0, 1.0)
 
 COMPARISON_WORDS = {"<": "below", "<=": "at or below", ">": "above", ">=": "at or above"}
 OPPOSITES = {"<": ">=", "<=": ">", ">": "<=", ">=": "<"}
@@ -30,7 +27,7 @@ def unknown_reading(name: str) -> Interval:
 
 def interval(of: Expression | Formula, reading: Readings = unknown_reading, each: Interval = UNIT_INTERVAL) -> Interval:
     """The range of an expression whose readings have these ranges, that of `for each` the range `each`."""
-    return _folded(of, reading, each, _combined)
+    return _folded(of, reading, each, combined_interval)
 
 
 def divisors(
@@ -42,7 +39,7 @@ def divisors(
     def combined(symbol: str, left: Interval, right: Interval) -> Interval:
         if symbol == "/":
             found.append(right)
-        return _combined(symbol, left, right)
+        return combined_interval(symbol, left, right)
 
     _folded(of, reading, each, combined)
     return found
@@ -63,33 +60,7 @@ def _folded(
         return each if word == "each" else UNIT_INTERVAL
 
     formula = of.formula if isinstance(of, Expression) else of
-    return fold(formula, leaf, lambda value: (-value[1], -value[0]), combined)
-
-
-def _product(left: float, right: float) -> float:
-    return left * right if left and right else 0.0  # an infinite bound is no value: 0 times whatever is read is 0
-
-
-CORNERS: dict[str, Callable[[float, float], float]] = {
-    "+": add, "-": sub, "*": _product, "/": truediv, "least": min, "greatest": max,
-}  # fmt: skip
-
-
-def _combined(symbol: str, left: Interval, right: Interval) -> Interval:
-    """All operations have their least and greatest value in corners, unless the divisor can be 0.
-
-    A choice has both of its values.
-    """
-    if symbol in TRUTHS:
-        return UNIT_INTERVAL
-    if symbol == "when":
-        return left
-    if symbol == "otherwise":
-        return min(left[0], right[0]), max(left[1], right[1])
-    if symbol == "/" and right[0] <= 0 <= right[1]:
-        return UNBOUNDED
-    corners = [CORNERS[symbol](a, b) for a, b in product(left, right)]
-    return UNBOUNDED if any(map(isnan, corners)) else (min(corners), max(corners))
+    return fold(formula, leaf, negated, combined)
 
 
 def is_constant(of: Expression) -> bool:

@@ -10,6 +10,7 @@ from mindrun.graph.graph import Graph
 from mindrun.graph.tasks import goals
 from mindrun.kinds.sensors.sensor import Physical, SensorKind
 from mindrun.kinds.things.thing import STAYS
+from mindrun.numbers.intervals import UNIT_INTERVAL, Interval
 
 from mindlang.compiler.beginning import Beginning, task_beginning
 from mindlang.compiler.compile import Compiled
@@ -20,7 +21,7 @@ from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Declaration, Fact, Setting, When, expressions_in
 from mindlang.editing.insertion import first_line, remove_lines, without_declarations
-from mindlang.lint.intervals import UNIT_INTERVAL, Interval, Range, interval, why_never
+from mindlang.lint.intervals import Range, interval, why_never
 from mindlang.lock import Lock, lock_sources, read_locks
 
 _WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")

@@ -193,15 +193,12 @@ class Worlds:
         for draw in task.draws:
             yield f"draws {draw.name} from {(' to ' if draw.is_range else ' ').join(map(number, draw.values))}"
         for thing in task.things:
-            if thing.when or any(thing.by):
-                signed = (
-                    "" if not by else f"{'-' if by < 0 else '+'}{task.draws[abs(by) - 1].name}" for by in thing.by
-                )
-                place = [
-                    name or number(at) for name, at in zip(signed, (*thing.kind.spots, (0.0, 0.0))[0], strict=True)
-                ]
+            if thing.when or thing.by or thing.many:
+                place = [infix(each, self._leaf_of(task)) for each in thing.by]
+                place = [f"+{each}" if each[0].isalpha() else each for each in place]
                 words = [f"contains {thing.name} is {names()[type(thing.kind)]}"]
-                words += [f"at {' '.join(place)}"] if any(thing.by) else []
+                words += ["along" if thing.kind.ways else "at", *place] if place else []
+                words += [f"count {task.draws[thing.many - 1].name}"] if thing.many else []
                 words += [f"when {infix(thing.when, self._leaf_of(task))}"] if thing.when else []
                 yield " ".join(words)
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import cv2
 import numpy as np
+from mindrun.sim.task_rows import boxes_by_name
 from numpy.typing import NDArray
 
 from mindlang.number_format import score
@@ -85,7 +86,7 @@ def view_of(run: RecordedRun, width: int, height: int, *others: RecordedRun) -> 
 def _places(run: RecordedRun) -> list[NDArray[np.float64]]:
     """The places [n, 2] at which anything was."""
     things = (run.placements(i)[:, :2] for i in range(len(run.contents)))
-    return [run.body[:, :2], *things, run.boxes[:, :2]]
+    return [run.body[:, :2], *things, *(box[None, :2] for box in run.standing.values())]
 
 
 def empty_page(height: int) -> Canvas:
@@ -183,8 +184,9 @@ def _entries(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path
     colours = dict(zip((thing.name for thing in run.contents), scene.thing_colours(run.contents, PAPER), strict=True))
     for name, thing in things.items():
         entries.append((partial(dot if thing.kind.is_round else box, colours[name]), name))
-    if len(run.boxes):
-        solid = dict.fromkeys(thing.name for thing in run.task.things if thing.kind.is_obstacle)
+    boxes = boxes_by_name(run.task)
+    solid = [each.name for each in run.task.things if not run.standing.keys().isdisjoint(boxes.get(each.name, ()))]
+    if solid:
         entries.append((partial(box, PAPER.rock_edge), ", ".join(solid)))
     if hits := len(run.collisions):
         entries.append((lambda x, y: draw_cross(canvas, x + 9, y, 5, PAPER), f"collision ({hits})"))

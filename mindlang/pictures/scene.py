@@ -47,10 +47,10 @@ def empty_world(run: RecordedRun, theme: Theme, view: Viewport, width: int, heig
         canvas.line([(x, low), (x, high)], theme.grid)
     for y in _grid(low, high):
         canvas.line([(left, y), (right, y)], theme.grid)
-    for box in run.boxes:
+    for box in run.standing.values():
         canvas.line(rectangle_corners(*box), theme.rock_edge, 2.4, closed=True)
     opened = opened_boxes(run.task)
-    for number, box in enumerate(run.boxes):
+    for number, box in run.standing.items():
         canvas.polygon(rectangle_corners(*box), theme.floor if number in opened else theme.rock)
     return canvas
 

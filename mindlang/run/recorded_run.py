@@ -11,6 +11,7 @@ from mindrun.graph.draws import drawn_numbers
 from mindrun.graph.graph import Graph, Task, Thing
 from mindrun.graph.recording_header import GOES_ON
 from mindrun.graph.skill_sets import movers
+from mindrun.sim.codes import AWAY
 from mindrun.sim.rollout import Rollout, scores_of
 from mindrun.sim.task_rows import things_of
 from mindrun.sim.trace import Trace, joined, trace
@@ -74,6 +75,11 @@ class RecordedRun:
     def drawn(self) -> Mapping[str, float]:
         """The numbers that the task has drawn for the run, by their names."""
         return {} if self.seed is None else drawn_numbers(self.task.draws, self.seed)
+
+    @property
+    def standing(self) -> dict[int, Floats]:
+        """The obstacles and walls that are there when it begins: x, y and half sides, by their numbers in `boxes`."""
+        return {number: box for number, box in enumerate(self.boxes) if box[0] != AWAY}
 
     @property
     def counts(self) -> NDArray[np.int64]:

@@ -351,7 +351,7 @@ def _sayable(line: CursorLine, nodes: Sequence[Any], known: list[Offer]) -> list
 def _words(line: CursorLine, accepted: set[str]) -> Iterator[Offer]:
     """The words of the language that mean something there."""
     is_like = bool(line.above and line.above.header.like)
-    keys_too = {"AT", "OR"} if "NAME" in accepted else set[str]()  # arguments there, which their kinds offer
+    keys_too = {"AT", "ALONG", "OR"} if "NAME" in accepted else set[str]()  # arguments there, which their kinds offer
     for sort, said in _literals().items():
         for word in said if sort in accepted - keys_too else ():
             label = WORDS.get(word, {line.first: word}).get(line.first, "")

@@ -8,6 +8,7 @@ from mindrun.graph.graph import Graph, Skill, Task
 from mindrun.graph.named_readings import reading_names, servo_reading
 from mindrun.graph.recording_header import About, RecordedWorld
 from mindrun.kinds.registry import names
+from mindrun.sim.codes import AWAY
 from mindrun.sim.task_rows import opened_boxes, things_of
 
 from mindlang.pictures.scene import half_sides, thing_colours
@@ -153,11 +154,12 @@ def _world(graph: Graph, task: Task, world: RecordedWorld, columns: Columns) -> 
     """The arena, what stands in it, its things with their colours, and the robot; lengths in units, angles in rad."""
     contents = things_of(task)
     colours = zip(thing_colours(contents, PAPER), thing_colours(contents, NIGHT), strict=True)
-    body = graph.body
+    body, opened = graph.body, opened_boxes(task)
+    standing = [(number, box) for number, box in enumerate(world.boxes) if box[0] != AWAY]
     return {
         "arena": [*half_sides(task.scene)] if task.scene.is_bounded else None,
-        "boxes": [[*box] for box in world.boxes],
-        "doors": sorted(opened_boxes(task)),
+        "boxes": [[*box] for _, box in standing],
+        "doors": [place for place, (number, _) in enumerate(standing) if number in opened],
         "things": [
             {
                 "name": shown(thing.name),

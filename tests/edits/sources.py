@@ -140,7 +140,11 @@ THINGS = [
     ],
 ]
 DRAWN = [
-    ["draws side from -5 5", "contains pit is zone size 2 at side 17 when side > 0", "rewards 0.1 * side per tick"],
+    [
+        "draws side from -5 5",
+        "contains pit is zone size 2 at side / 2 - 1 17 when side > 0",
+        "rewards 0.1 * side per tick",
+    ],
     ["draws far from 1 to 4.5", "contains pit is zone within -9 15 to 9 17", "ends when far > 4"],
 ]  # what is drawn, and what depends on it
 STARTS = ["starts at 2.5 12.5", "starts facing -45 deg", "starts at 2.5 12.5 facing 1/2 deg"]

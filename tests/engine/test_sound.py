@@ -8,7 +8,8 @@ from math import inf, nan, nextafter
 import numpy as np
 import pytest
 from mindrun.engine.engine import virtual_sensors
-from mindrun.graph.graph import Edge, End, Gate, Graph, Lesson, Memory, Reward, Sensor, Task, Thing
+from mindrun.graph.draws import Draw
+from mindrun.graph.graph import Edge, End, Gate, Graph, Lesson, Memory, Program, Reward, Sensor, Task, Thing
 from mindrun.graph.measured import with_sources
 from mindrun.graph.validate import graph_flaw
 from mindrun.kinds.events.event import Delivery, Reach, Success, Visit
@@ -33,6 +34,7 @@ ONE = (("number", 1.0),)
 HOLDS = (*ONE, *ONE, ("<=", 0))
 REWARD = Reward("", (("reading", 0), ("measure", 0), ("+", 0)), 0)
 BALL = Thing("ball", Item())
+SIDE: Program = (("drawn", 0),)
 ROCKS, CLOSE = Thing("rocks", Obstacle(grid=10.0)), Thing("close", Obstacle(grid=5e-324))
 TASK = Task("Go", Plain(), (BALL,), 10, (Progress("ball"),), (Reach("ball"),), (End(0),), (REWARD,), (0,))
 
@@ -81,6 +83,13 @@ def with_skill(index: int, **changes: object) -> Callable[[Graph], Graph]:
 
 def with_task(**changes: object) -> Callable[[Graph], Graph]:
     return lambda graph: replace(graph, tasks=(replace(graph.tasks[0], **changes),))
+
+
+def with_drawn(at: Program, many: int = 0, *, is_there: Program = ()) -> Callable[[Graph], Graph]:
+    """A ball at a place, or as many as are drawn, of a number that is 0, 2 or 3."""
+    kind = Item(count=3) if many else Item(at=((1.0, 1.0),))
+    ball = Thing("ball", kind, is_there, () if many else (at, at), many)
+    return with_task(things=(ball,), draws=(Draw("side", (0.0, 2.0, 3.0)), Draw("far", (0.0, 4.0), True)))
 
 
 def with_reward(**changes: object) -> Callable[[Graph], Graph]:
@@ -165,6 +174,14 @@ FLAWED: list[tuple[Callable[[Graph], Graph], str]] = [
     (with_task(things=(BALL, Thing("no name", Zone()))), "task Go contains what has no name of its own"),
     (with_task(things=(Thing("", Item()),)), "task Go contains what has no name of its own"),
     (with_task(things=(BALL, Thing("home", Zone(size=UNSAID)))), "task Go contains what has no size"),
+    (with_drawn(SIDE, is_there=SIDE), "task Go has a thing of which nobody knows whether it is there"),
+    (with_drawn((("number", 1.0), *SIDE, ("/", 0))), "task Go has a thing of which nobody knows where it is"),
+    (with_drawn((("number", 1e5), *SIDE, ("*", 0))), "task Go has a thing of which nobody knows where it is"),
+    (with_drawn((*SIDE, ("+", 0))), "task Go has a thing of which nobody knows where it is"),
+    (with_drawn((("drawn", 2),)), "task Go has a thing of which nobody knows where it is"),
+    (with_drawn((), 2), "task Go has a thing of which nobody knows how many there are"),
+    (with_drawn((), 3), "task Go has a thing of which nobody knows how many there are"),
+    (with_drawn((), -1), "task Go has a thing of which nobody knows how many there are"),
     (with_task(things=()), "task Go names a thing that is not there"),
     (with_task(things=(Thing("ball", Obstacle(count=1)),)), "task Go names a thing that is not there"),
     (with_task(events=(Reach("no"),)), "task Go names a thing that is not there"),

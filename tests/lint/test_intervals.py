@@ -7,13 +7,11 @@ from math import inf
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from mindrun.numbers.intervals import UNBOUNDED, UNIT_INTERVAL, Interval
 
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Expression, Term
 from mindlang.lint.intervals import (
-    UNBOUNDED,
-    UNIT_INTERVAL,
-    Interval,
     divisors,
     interval,
     is_constant,

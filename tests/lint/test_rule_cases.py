@@ -4,11 +4,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from mindrun.numbers.intervals import UNBOUNDED
 
 from mindlang.compiler.compile import load
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Expression, Term
-from mindlang.lint.intervals import UNBOUNDED, interval
+from mindlang.lint.intervals import interval
 from mindlang.lint.lint import lint
 from tests.lint.examples import whole
 

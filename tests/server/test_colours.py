@@ -29,9 +29,9 @@ TOKENS = {
     "LETTER": PART,
     "ENVIRONMENT": "string.unquoted",
     **dict.fromkeys(("COMPUTED", "NUMBERED", "SEVERAL", "ORDERED", "BROKEN", "GYMNASIUM"), KIND),
-    **dict.fromkeys(("FROM", "TO", "BY", "ON", "FACING", "AT"), KEY),
+    **dict.fromkeys(("FROM", "TO", "BY", "ON", "FACING", "AT", "ALONG"), KEY),
     **dict.fromkeys(("EXTREME", "AND", "OR", "TICK", "LEVEL"), WORD),
-    **dict.fromkeys(("SIGN", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
+    **dict.fromkeys(("SIGN", "SPACED", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
 }
 NAMES = {  # by the rule in which they stand, and there by their place among the names
     "header": [DECLARED],
@@ -43,6 +43,8 @@ NAMES = {  # by the rule in which they stand, and there by their place among the
     "name": [VALUE],
     "constant": [VALUE],
     "quantity": [VALUE],
+    "figure": [VALUE],
+    "variable": [VALUE],
     "number": [DECLARED],
     "varies": [KEY],
     "stays": [VALUE],

@@ -8,16 +8,15 @@ from itertools import islice
 import numpy as np
 from mindrun.engine.engine import Engine
 from mindrun.graph.draws import drawn_numbers
-from mindrun.graph.graph import Graph, Task
+from mindrun.graph.graph import Graph
 from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.quantity import Region, Span
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, Trace, trace
 
-from tests.plain import postfix
 from tests.sim.plain_sensors import ordered
-from tests.sim.plain_world import PlainWorld
-from tests.sim.varied import as_drawn, stuck
+from tests.sim.plain_world import OPENED, PlainWorld
+from tests.sim.varied import as_drawn, of_drawn, stuck
 
 
 def follow(rollout: Rollout, engine: Engine, seed: int) -> Counter[str]:
@@ -26,7 +25,7 @@ def follow(rollout: Rollout, engine: Engine, seed: int) -> Counter[str]:
     graph, task = as_drawn(rollout.graph, rollout.task, run.drawn)
     failing = stuck(rollout.task, run.drawn)
     plain = PlainWorld(graph, task, run, bool(rollout.tables.world[0]["battery"]))
-    hold_draws(task, run, seed)
+    hold_draws(plain, run, seed)
     used = {int(row["start"]) for row in rollout.tables.sensors}
     counts = np.zeros(len(task.events), np.int64)
     ended = -1
@@ -60,28 +59,30 @@ def follow(rollout: Rollout, engine: Engine, seed: int) -> Counter[str]:
     return +total
 
 
-def hold_draws(task: Task, run: Trace, seed: int) -> None:
+def hold_draws(plain: PlainWorld, run: Trace, seed: int) -> None:
     """The numbers of a run follow from its seed alone; things are there, and where, as these and their kinds say."""
+    task = plain.task
     drawn = run.drawn[len(run.drawn) - len(task.draws) :].tolist()
     assert drawn == [*drawn_numbers(task.draws, seed).values()]
-    things = [thing for thing in task.things if not thing.kind.is_obstacle]
+    apart = [thing for thing in task.things if not thing.kind.is_obstacle]
     rows = iter(run.things.tolist())
-    standing = {thing.name: [*islice(rows, thing.kind.copies)] for thing in things}
-    for thing in things:
-        kind, its = thing.kind, standing[thing.name]
-        when = [("number", drawn[int(x)]) if word == "drawn" else (word, x) for word, x in thing.when]
-        with np.errstate(all="ignore"):
-            is_there = not when or postfix(when, ()) > 0
-        assert [math.isnan(x) for x, *_ in its] == [not is_there] * len(its)
-        there = {(x, y) for x, y, _ in its if is_there}
-        if any(thing.by):
-            signed = zip(thing.by, kind.at[0], strict=True)
-            assert there <= {tuple(math.copysign(1, n) * drawn[abs(n) - 1] if n else at for n, at in signed)}
+    standing = {thing.name: [*islice(rows, thing.kind.copies)] for thing in apart}
+    for thing in task.things:
+        kind, its = thing.kind, standing.get(thing.name, [[*plain.boxes[i]] for i in plain.rows_of(thing.name)])
+        is_any = not thing.when or of_drawn(thing.when, drawn) > 0
+        there = [is_any and (not thing.many or copy < drawn[thing.many - 1]) for copy in range(len(its))]
+        assert [math.isnan(x) or x == OPENED for x, *_ in its] == [not each for each in there]
+        places = {(x, y) for (x, y, *_), is_there in zip(its, there, strict=True) if is_there}
+        if thing.by and not kind.ways:
+            at, jitter = [of_drawn(program, drawn) for program in thing.by], getattr(kind, "jitter", 0.0)
+            assert all(math.dist(place, at) <= 2 * jitter for place in places)
+        elif kind.is_obstacle or kind.ways:
+            continue
         elif kind.options:
-            assert there <= set(kind.options)
-            assert not is_there or len(there) == min(len(its), len(set(kind.options)))
+            assert places <= set(kind.options)
+            assert len(places) == min(sum(there), len(set(kind.options)))
         elif kind.within:
-            assert all(any(inside(*place, *zone) for zone in zones_of(kind.within, standing)) for place in there)
+            assert all(any(inside(*place, *zone) for zone in zones_of(kind.within, standing)) for place in places)
 
 
 def zones_of(within: Region, standing: Mapping[str, list[list[float]]]) -> list[tuple[float, ...]]:

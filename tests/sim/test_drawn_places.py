@@ -96,6 +96,40 @@ def test_a_number_is_drawn_from_the_seed_and_moves_nothing_else() -> None:
     assert (min(far), max(far), np.mean(far)) == pytest.approx((8, 12, 10), abs=0.12)
 
 
+def test_a_place_is_computed_of_what_is_drawn() -> None:
+    rollout = world("at 10 -2 + 1.5 * side\n  contains gem is item at (far - side) / 2 -side - 1")
+    for seed in range(20):
+        drawn, run = drawn_numbers(rollout.task.draws, seed), trace(rollout, seed)
+        side, far = drawn["side"], drawn["far"]
+        assert [tuple(place) for place in run.things[1:, :2]] == [(10, -2 + 1.5 * side), ((far - side) / 2, -side - 1)]
+
+
+def test_there_are_as_many_as_are_drawn_where_they_would_be_anyway() -> None:
+    lines = "at 9 0\n  contains gem is item count {0}\n  contains rock is obstacle count {0}\n  draws many from 0 1 3"
+    drawn, all_of_them = world(lines.format("many")), world(lines.format(3))
+    for seed in range(20):
+        run, other, many = trace(drawn, seed), trace(all_of_them, seed), drawn_numbers(drawn.task.draws, seed)["many"]
+        there = [place < many for place in range(3)]
+        assert np.isfinite(run.things[2:, 0]).tolist() == (run.boxes[:, 0] < 1e29).tolist() == there
+        assert np.array_equal(run.things[2:][there], other.things[2:][there])
+        assert np.array_equal(run.boxes[there], other.boxes[there])
+
+
+def test_a_wall_is_there_when_its_condition_holds_for_all_who_ask() -> None:
+    fence = "at 9 0\n  contains fence is wall from 5 -9 to 5 9 when side < 8"
+    eyes = "sensor ahead is range_finder at 0 deg range 10\nsensor near is distance of fence\nskill"
+    text = MIND.replace("THING", fence).replace("TICKS", "900").replace("SCENE", "arena size 40")
+    text = text.replace(" at 0 0", " at 0 0 facing 0 deg").replace("skill", eyes, 1)
+    text = text.replace("drives left", "reads ahead\n  reads near\n  drives left", 1)
+    rollout = Rollout(Policy(compile_text(text), {}), "World", "Go")
+    for seed in range(6):
+        run, is_there = trace(rollout, seed), drawn_numbers(rollout.task.draws, seed)["side"] < 8
+        moments = [*run.moments]
+        assert (moments[0].readings[1:3] < 1).tolist() == [is_there, is_there]
+        assert (max(moment.body[0] for moment in moments) > 6) != is_there
+        assert any(moment.touching for moment in moments) == is_there
+
+
 def test_a_thing_is_there_when_its_condition_holds() -> None:
     rollout = world("at 9 0 when side > 0 and far > 10 or side < 0")
     for seed, run in enumerate(begun(rollout)):

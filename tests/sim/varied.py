@@ -4,7 +4,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from mindrun.graph.graph import Graph, Task, Variation
+import numpy as np
+from mindrun.graph.graph import Graph, Program, Task, Thing, Variation
+
+from tests.plain import postfix
 
 
 def as_drawn(graph: Graph, task: Task, drawn: Sequence[float]) -> tuple[Graph, Task]:
@@ -18,7 +21,23 @@ def as_drawn(graph: Graph, task: Task, drawn: Sequence[float]) -> tuple[Graph, T
             graph = replace(graph, actuators=_parts(graph.actuators, variation, value))
         else:
             graph = replace(graph, sensors=_parts(graph.sensors, variation, value))
-    return graph, replace(task, varies=(), fails=())
+    given = drawn[len(drawn) - len(task.draws) :]
+    return graph, replace(task, things=tuple(_gone(thing, given) for thing in task.things), varies=(), fails=())
+
+
+def _gone(thing: Thing, drawn: Sequence[float]) -> Thing:
+    """A thing of which the way that is drawn is the only one."""
+    kind: Any = thing.kind
+    if not (thing.by and getattr(kind, "along", ())):
+        return thing
+    numbers = [of_drawn(program, drawn) for program in thing.by]
+    return replace(thing, kind=replace(kind, along=tuple(zip(numbers[::2], numbers[1::2], strict=True)), or_=()))
+
+
+def of_drawn(program: Program, drawn: Sequence[float]) -> float:
+    """The value of a program of what a task has drawn."""
+    with np.errstate(all="ignore"):
+        return float(postfix([("number", drawn[int(x)]) if word == "drawn" else (word, x) for word, x in program], ()))
 
 
 def stuck(task: Task, drawn: Sequence[float]) -> dict[str, int]:

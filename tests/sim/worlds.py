@@ -1,12 +1,12 @@
 """Hypothesis strategies for whole worlds: any hierarchy in any body, among anything, judged in any way."""
 
 from dataclasses import fields, replace
-from itertools import permutations, product
+from itertools import permutations
 from math import pi
 from typing import Any, get_args
 
 from hypothesis import strategies as st
-from mindrun.graph.draws import Draw
+from mindrun.graph.draws import Draw, ends_of, intervals_of
 from mindrun.graph.graph import Actuator, End, Failure, Graph, Lesson, Program, Reward, Start, Task, Thing, Variation
 from mindrun.graph.weights import genes
 from mindrun.kinds.actuators.actuator import Gripper, Lamp, Motor, Servo, Steering, Thruster, Wheel
@@ -37,6 +37,7 @@ WAYS = [((-9.0, -5.0), (-2.0, -5.0)), ((6.0, 6.0), (6.0, -3.0), (9.5, -3.0)), ((
 PATHS = [((-5.0, 0.0), (5.0, 2.0)), ((0.0, 0.0), (3.0, 0.0), (3.0, -6.0))]
 DRAWS = st.sampled_from([
     Draw("side", (-4.0, 3.0)), Draw("side", (1.0, 5.0, -2.5)), Draw("far", (-6.0, 6.0), True), Draw("far", (2.0,)),
+    Draw("many", (2.0, 0.0, 3.0)),
 ])  # fmt: skip
 SPEEDS, TURNINGS = st.sampled_from([0.5, 3.0, 20.0, 300.0]), st.sampled_from([0.0, 1.5, 10.0])
 NOTICED = st.sampled_from([FARTHEST_UNITS, FARTHEST_UNITS, 0.5, 6.0])  # from how far away a walker seeks or flees
@@ -246,8 +247,8 @@ def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...]) -> tuple
             made = kind(size=draw(size), **placed, **outcomes, **drawn)
             has_room = not made.within or made.mistake(scene) is None
             things.append(Thing(name, made if has_room else replace(made, within=""), draw(_presence(draws))))
-    things += draw(_obstacles(scene))
-    return tuple(draw(_drawn_places(each, draws)) for each in draw(st.permutations(things)))
+    things += [replace(each, when=draw(_presence(draws))) for each in draw(_obstacles(scene))]
+    return tuple(draw(_drawn_places(draw(_counted(each, draws)), draws)) for each in draw(st.permutations(things)))
 
 
 @st.composite
@@ -284,16 +285,36 @@ def _presence(draws: tuple[Draw, ...]) -> st.SearchStrategy[Program]:
 def _drawn_places(draw: st.DrawFn, thing: Thing, draws: tuple[Draw, ...]) -> Thing:
     """A thing, now and then one that stands at a single place at what is drawn."""
     kind: Any = thing.kind
-    if not draws or len(kind.at) != 1 or kind.or_ or draw(st.booleans()):
+    along = getattr(kind, "along", ())
+    if not draws or not (along or len(kind.at) == 1) or kind.or_ or draw(st.booleans()):
         return thing
-    signed = st.integers(-len(draws), len(draws))
-    by = draw(st.tuples(signed, signed))
-    ends = (
-        [end if n > 0 else -end for end in draws[abs(n) - 1].ends] if n else [at]
-        for n, at in zip(by, kind.at[0], strict=True)
-    )
-    first, *others = product(*ends)
-    return replace(thing, kind=replace(kind, at=(first,), or_=tuple((place,) for place in others)), by=by)
+    drawn = st.integers(0, len(draws) - 1).map(lambda i: (("drawn", i),))
+    number = st.sampled_from([0.5, -2.0, 3.0]).map(lambda x: (("number", x),))
+
+    def coordinates(at: float) -> st.SearchStrategy[Program]:
+        """Some that are in the arena whatever is drawn."""
+        near = combined(drawn | number, 3).filter(
+            lambda program: all(abs(end) <= 7 for _, ends in intervals_of(program, draws) for end in ends)
+        )
+        return st.just((("number", at),)) | drawn | near
+
+    by = tuple(draw(coordinates(x)) for at in along or kind.at for x in at)
+    ends = (tuple(zip(end[::2], end[1::2], strict=True)) for end in ends_of(by, draws))
+    first, *others = ends
+    made = replace(kind, **{"along" if along else "at": first}, or_=tuple(others))
+    return replace(thing, kind=made, by=by) if made.mistake(None) is None else thing
+
+
+@st.composite
+def _counted(draw: st.DrawFn, thing: Thing, draws: tuple[Draw, ...]) -> Thing:
+    """A thing, now and then one of which there are as many as are drawn."""
+    kind: Any = thing.kind
+    counts = [number for number, each in enumerate(draws, 1) if each.is_count]
+    is_countable = getattr(kind, "count", 0) > 1 and not kind.spots
+    if not (counts and is_countable and draw(st.booleans())):
+        return thing
+    many = draw(st.sampled_from(counts))
+    return replace(thing, kind=replace(kind, count=int(draws[many - 1].interval[1])), many=many)
 
 
 @st.composite

@@ -14,6 +14,7 @@ from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Amount, Argument, Expression, Name, Numbers, Phrase, Term
 
 Terms = list[Amount | Phrase | Term]
+SIGNS = ("+", "-")
 
 _NUMBER = re.compile(r"([+-]?)[ \t]*([0-9./]+)")
 # Rules whose parts are the fields of a struct in their order, but for the span; the last may be missing.
@@ -80,7 +81,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         return Name(str(token), self._span(token))
 
     TITLE = LETTER = PART = WHOLE = TASK = COMPUTED = NUMBERED = SEVERAL = ORDERED = BROKEN = NAME
-    GYMNASIUM = ENVIRONMENT = FROM = TO = BY = ON = FACING = AT = NAME
+    GYMNASIUM = ENVIRONMENT = FROM = TO = BY = ON = FACING = AT = ALONG = NAME
 
     def COMPARE(self, token: Token) -> str:  # noqa: N802
         """A sign between two values."""
@@ -191,18 +192,31 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     def call(self, meta: Any, parts: list[Any]) -> Phrase:
         return Phrase(parts[0], tuple(parts[1:]), self._span(meta))
 
-    def numbers(self, meta: Any, parts: list[Any]) -> Numbers:
-        return Numbers(tuple(parts), self._span(meta))
+    def numbers(self, meta: Any, parts: list[Any]) -> Numbers | syntax.Sums:
+        """Amounts, or where anything is computed sums: where only numbers stand a sign never adds, as `10 - 20`."""
+        amounts = [each for part in parts for each in ([part] if isinstance(part, Amount) else _listed(part))]
+        if all(isinstance(each, Amount) for each in amounts):
+            return Numbers(tuple(amounts), self._span(meta))
+        sums = (part if isinstance(part, Expression) else as_expression(part) for part in parts)
+        return syntax.Sums(tuple(sums), self._span(meta))
 
     amounts = from_name = numbers
+
+    def total(self, meta: Any, parts: list[Any]) -> Expression:
+        return Expression(tuple(term for each in _terms(parts[0]) for term in named_terms(each)), self._span(meta))
+
+    led = total
+
+    def nested(self, meta: Any, parts: list[Any]) -> Terms:
+        return _terms(parts[0])
 
     def stretch(self, meta: Any, parts: list[Any]) -> syntax.Range | syntax.Points:
         """A range where one number stands on each side of `to`, or else places."""
         by = parts.pop() if isinstance(parts[-1], Amount) else None
         sides = [_side(part) for part in parts]
-        if len(sides) == 2 and all(len(side.amounts) == 1 for side in sides):
-            first, last = (side.amounts[0] for side in sides)
-            return syntax.Range(first, last, by, self._span(meta))
+        ends = [side.amounts[0] for side in sides if isinstance(side, Numbers) and len(side.amounts) == 1]
+        if len(sides) == len(ends) == 2:
+            return syntax.Range(ends[0], ends[1], by, self._span(meta))
         return syntax.Points(tuple(sides), by, self._span(meta))
 
     def instead(self, meta: Any, parts: list[Any]) -> Argument:
@@ -226,7 +240,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         value = parse_number(said.get("SIGN", "") + said["NUMBER"])
         return Amount(value, said.get("UNIT", ""), self._span(meta), said.get("RATE", ""))
 
-    amount = quantity
+    amount = figure = quantity
 
     def expression(self, meta: Any, parts: list[Any]) -> Expression:
         return Expression(tuple(_terms(parts[0])), self._span(meta))
@@ -245,6 +259,8 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     def bare(self, meta: Any, parts: list[Any]) -> Phrase:
         return Phrase(parts[0], (), parts[0].span)
 
+    variable = bare
+
     def extreme(self, meta: Any, parts: list[Any]) -> Terms:
         """The least of several is the least of the first and the second, then of that and the third, and so on."""
         word = Term(parts[0].split()[0], 0, self._span(parts[0]))
@@ -254,7 +270,31 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         return terms
 
 
-def _side(part: Numbers | Name) -> Numbers:
+def named_terms(term: Amount | Phrase | Term) -> tuple[Amount | Phrase | Term, ...]:
+    """A term of an expression; a name with a sign, as where numbers stand, becomes two."""
+    if not isinstance(term, Amount) or not term.name:
+        return (term,)
+    sign = (Term("negate", 0, term.span),) if term.number < 0 else ()
+    return (Phrase(term.constant, (), term.constant.span), *sign)
+
+
+def as_expression(amount: Amount) -> Expression:
+    """The expression of a number, or of a name that stands where numbers do."""
+    return Expression(named_terms(amount), amount.span)
+
+
+def _listed(total: Expression) -> list[Any]:
+    """The numbers of a sum of numbers alone, each with the sign before it; itself where it is anything else."""
+    numbers, signs = syntax.of_form(total.terms, Amount), syntax.of_form(total.terms, Term)
+    is_list = len(numbers) + len(signs) == len(total.terms) and all(each.word in SIGNS for each in signs)
+    if not is_list or "(" in total.span.text:
+        return [total]
+    first, *others = numbers
+    spans = [Span(total.span.source, sign.span.start, of.span.end) for sign, of in zip(signs, others, strict=True)]
+    return [first, *(replace(of, number=parse_number(at.text), span=at) for of, at in zip(others, spans, strict=True))]
+
+
+def _side(part: Numbers | Name | syntax.Sums) -> Numbers | syntax.Sums:
     if isinstance(part, Name):
         return Numbers((Amount(1.0, "", part.span, name=part.text),), part.span)
     return part

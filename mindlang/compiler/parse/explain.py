@@ -252,8 +252,7 @@ def unexpected(error: "UnexpectedInput", code: str, line: Span, example: str) ->
     key = re.search(r"(?<=\s)([a-z]\w*)\s*$", code[:start])
     if key and key[1] not in JOINTS and not code[start:end] and {"NAME", "NUMBER"} <= expected:
         return _without_value(key[1], code, _at(line, *key.span(1)))
-    if "NUMBER" in expected:
-        expected -= {"SIGN", "MINUS"}
+    expected -= {"SPACED", *(("SIGN", "MINUS") if "NUMBER" in expected else ())}
     words = [_WORDS[name] for name in _WORDS if name in expected]
     words += sorted(name.lower() for name in expected - set(_WORDS) if name.isalpha() and name.isupper())
     here = code[start:end]

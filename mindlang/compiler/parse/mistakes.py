@@ -214,6 +214,11 @@ MISTAKES = (
     Mistake("unknown-argument", r"^\s*contains\b.*?\bwalker\b.*?(?P<here>\baway\s+from\s+(?P<name>[a-z]\w*))",
         "Away is how far off it is placed.", "One that goes away from {name} flees it: flees {name}.",
         "contains cat is walker away from robot"),
+    Mistake("unsigned-name",
+        r"^\s*contains\b.*\bat\s+[-+]?[\d./]+\s+"
+        r"(?P<here>(?!(?:or|to|by|deg|when|size|count|reached|delivered|away|within|speed|range|grid|jitter)\b)[a-z]\w*)",
+        "Behind a number a name has a sign.", "Write +{here}: its sign begins the next number.",
+        "contains gem is item at 3 side"),
     Mistake("over", r"^\s*drives\b.*?(?P<here>\bover\b.*)$",
         "Only an influence is over an actuator: a command goes to one as it is.",
         "Leave it out, or set it on the line that influences this skill.", "drives left_wheel over right_wheel at 1"),

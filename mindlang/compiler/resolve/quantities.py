@@ -55,7 +55,9 @@ def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = 
 def _unknown_number(amount: Amount, findings: Findings) -> None:
     hint = findings.suggest(amount.name, findings.numbers) or f"Declare it: number {amount.name} is 12."
     if amount.name in findings.draws:
-        hint = f"{amount.name} is drawn for each run: it is a place, at +{amount.name} 5, or stands after when."
+        hint = (
+            f"{amount.name} is drawn for each run: it is a place, at +{amount.name} 5, a count, or stands after when."
+        )
     if amount.name.isupper():
         hint = f"Write a number, or say which it stands for: where {amount.name} is 1 to 10."
     findings.error("unknown-number", amount.constant.span, f"There is no number called {amount.name}.", hint)

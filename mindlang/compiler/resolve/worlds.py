@@ -9,17 +9,17 @@ from mindrun.graph.draws import Draw
 from mindrun.graph.graph import VARIED_NOUNS, Failure, Start, Variation, Varying, varied_quantity
 from mindrun.kinds.actuators.actuator import REACH_UNITS
 from mindrun.kinds.bodies.body import BodyKind
-from mindrun.kinds.registry import arguments, find_kind
+from mindrun.kinds.registry import arguments
 from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ThingKind
 from mindrun.numbers.quantity import ANGLE, COORDINATE, RATE
 
 from mindlang.compiler.beginning import Beginning, task_beginning
-from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed
+from mindlang.compiler.diagnostic import Findings, Label, did_you_mean, listed
 from mindlang.compiler.model import Part, Thing
 from mindlang.compiler.names import Names, declared_things
-from mindlang.compiler.resolve.draws import at_drawn, resolve_draws
+from mindlang.compiler.resolve.draws import may_leave, resolve_draws, with_drawn
 from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.maps import map_start, with_places
@@ -111,8 +111,8 @@ def _things(
     obstacles = 0
     for fact in of_form(declaration.facts, Contains):
         name = fact.name.text
-        phrase, by = at_drawn(fact.phrase, draws, findings)
-        kind = make_kind("content", phrase, scope, findings)
+        phrase, by, many = with_drawn(fact.phrase, draws, scope.names.unread, findings)
+        kind: Any = make_kind("content", phrase, scope, findings) if phrase else None
         if name in found:
             places, hint = (found[name].span, fact.name.span), "Give one of the two another name."
             message = f"The {declaration.header.noun.text} already contains something called {name}."
@@ -120,12 +120,16 @@ def _things(
         if kind:
             if mistake := kind.mistake(scene):
                 findings.error(mistake.code, fact.phrase.span, mistake.message, mistake.hint)
+            elif scene and may_leave(kind, by, [*draws.values()], scene):
+                hint = "Write a place that is in it with all of the thing, whatever is drawn; 0 0 is the middle."
+                findings.error("outside-arena", fact.phrase.span, "That is not always inside the arena.", hint)
             elif obstacles <= MAX_OBSTACLES < (made := obstacles + kind.obstacles(scene)):
                 message = f"With those above, that makes {made} obstacles."
                 hint = f"A world takes {MAX_OBSTACLES} in all."
                 findings.error("too-many-obstacles", fact.phrase.span, message, hint)
             obstacles += min(kind.obstacles(scene), MAX_OBSTACLES)  # as if there were few where there are too many
-        found.setdefault(name, Thing(name, kind, fact.name.span, when=_presence(fact, draws, scope, findings), by=by))
+        when = _presence(fact, draws, scope, findings)
+        found.setdefault(name, Thing(name, kind, fact.name.span, when=when, by=by, many=many))
     for thing in (each for each in found.values() if each.kind and isinstance(each.kind.within, str)):
         zone = found.get(str(thing.kind.within))
         if zone and zone.kind and zone.kind.within:
@@ -139,14 +143,7 @@ def _things(
 
 
 def _presence(fact: Contains, draws: Mapping[str, Draw], scope: Scope, findings: Findings) -> When | None:
-    """The condition under which a thing is there; None where it always is, or has a kind that always is."""
-    cls = find_kind("content", fact.phrase.kind.text)
-    if fact.when and cls and cls.is_obstacle:
-        hint = "Let a number be its place instead: obstacle at +side 0, or write obstacle at 5 0 or 0 5."
-        findings.error(
-            "always-there", fact.when.span, f"{a(fact.phrase.kind.text).capitalize()} is there in every run.", hint
-        )
-        return None
+    """The condition under which a thing is there; None where it always is."""
     made_of = "numbers, and of what the task draws"
     visible = Visible({}, unread=scope.names.unread, draws=draws, made_of=made_of, where="A condition of a thing")
     return resolve_expressions(fact.when, visible, findings)

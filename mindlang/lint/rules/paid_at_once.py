@@ -10,10 +10,11 @@ from dataclasses import dataclass, replace
 from math import pi
 
 from mindrun.kinds.events.event import EventKind
+from mindrun.numbers.intervals import UNIT_INTERVAL, Interval
 
 from mindlang.compiler.beginning import Beginning, first_tick_hint
 from mindlang.compiler.model import Task
-from mindlang.lint.intervals import UNIT_INTERVAL, Interval, interval, why_always
+from mindlang.lint.intervals import interval, why_always
 from mindlang.lint.study import Finding, Found, Study, once_a_line
 
 LEAST_SHARE = 0.01  # of runs that are worth a word

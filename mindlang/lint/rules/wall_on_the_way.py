@@ -25,7 +25,8 @@ BAD = (HALL.format("0 -5 to 0 5"), HALL.format("0 -5 to 15 -5 to 15 5"), HALL.fo
 def check(study: Study) -> Found:
     """Stretches of ways, the last of which leads back to the first place, that are in what is fixed."""
     for task in study.mind.tasks:
-        fixed = [(each, [rectangle_outline(wall) for wall in each.kind.standing(task.scene)]) for each in task.things]
+        there = [each for each in task.things if each.is_always_there]
+        fixed = [(each, [rectangle_outline(wall) for wall in each.kind.standing(task.scene)]) for each in there]
         for thing in (each for each in task.things if each.kind.walks and not each.kind.wanders):
             radius = thing.kind.begins[0] / 2
             stretches = (pair for way in thing.kind.ways for pair in zip(way, (*way[1:], *way[:1]), strict=True))

@@ -54,7 +54,7 @@ def _of_task(study: Study, task: Task) -> Iterator[Finding]:
     body, before = study.mind.body.kind, list[Rectangle]()
     for may in (False, True):
         opened = {end.opens for end in task.ends}
-        standing = [each.kind for each in task.things if each.name not in opened]
+        standing = [each.kind for each in task.things if each.name not in opened and each.is_always_there]
         walls = [wall for kind in standing for wall in kind.standing(task.scene, may and _stays(task, kind))]
         if walls == before or task.scene.environment:
             return

@@ -9,11 +9,12 @@ condition, `1 / ahead per tick when ahead > 0.05`; that is looked at for reading
 from collections.abc import Iterator, Sequence
 from math import inf, nextafter
 
+from mindrun.numbers.intervals import Interval
 from msgspec.structs import replace
 
 from mindlang.compiler.syntax import Comparison, Expression, Term, When
 from mindlang.lint.examples import COURSE, EYE, READS
-from mindlang.lint.intervals import OPPOSITES, UPPER, Interval, bounds, divisors
+from mindlang.lint.intervals import OPPOSITES, UPPER, bounds, divisors
 from mindlang.lint.study import AnalysedWorld, Conditional, Finding, Found, Study
 
 BEGIN = EYE + COURSE

@@ -133,14 +133,27 @@ class Skill:
 class Thing:
     """Something that a task's world contains, in the runs in which `when` holds, or in all where that is empty.
 
-    `by` says which numbers that the task draws are its x and its y: their places in its `draws`, from 1 on, below 0
-    where a number is negated, and 0 where `at` says it. Its kind is then at every place that this may be.
+    `by` are its x and its y, or all of its way, where the task draws them: programs of numbers alone and of those that
+    the task draws. Its kind is then at every place that this may be, or on every way. Of its copies there are as many
+    as the task draws with number `many` of its `draws`, from 1 on, and its kind has the most that this may be; all
+    are there where it is 0.
     """
 
     name: str
     kind: ThingKind
     when: Program = left_out(())
-    by: tuple[int, int] = left_out((0, 0))
+    by: tuple[Program, ...] = left_out(())
+    many: int = left_out(0)
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """The programs of where it is, and of whether it is there."""
+        return (*self.by, self.when)
+
+    def presence(self, copy: int) -> Program:
+        """The condition under which one of its copies is there; empty where it always is."""
+        counted: Program = (("drawn", self.many - 1), ("number", float(copy)), (">", 0)) if self.many else ()
+        return (*self.when, *counted, ("and", 0)) if self.when and counted else self.when or counted
 
 
 @dataclass(frozen=True, slots=True)

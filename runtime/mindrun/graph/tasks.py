@@ -130,8 +130,8 @@ def _draws_things(graph: Graph, task: Task) -> bool:
 def _draws_numbers(task: Task) -> bool:
     """True if a number is drawn that a thing, a reward or an end depends on."""
     read = {index for program in task.programs for index in leaves(program, "drawn")}
-    read |= {index for thing in task.things for index in leaves(thing.when, "drawn")}
-    read |= {abs(number) - 1 for thing in task.things for number in thing.by if number}
+    read |= {index for thing in task.things for program in thing.programs for index in leaves(program, "drawn")}
+    read |= {thing.many - 1 for thing in task.things if thing.many}
     return any(len({*task.draws[index].values}) > 1 for index in read)
 
 

@@ -1,11 +1,11 @@
 """The flaws of a graph: which promises it breaks that the types of `mindrun.graph.graph` cannot make."""
 
 import re
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterator, Sequence
 from graphlib import CycleError, TopologicalSorter
 from math import prod
 
-from mindrun.graph.draws import MAX_VALUES
+from mindrun.graph.draws import MAX_VALUES, Draw, intervals_of
 from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task, varied_quantity
 from mindrun.graph.tasks import unfit_thing, varied_kind
 from mindrun.kinds.functions.procedure import is_inside
@@ -206,7 +206,6 @@ def _end_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
 
 def _draw_flaws(task: Task) -> Iterator[str]:
     """What is drawn has a name of its own and numbers; a thing is there when these say so, and where they say."""
-    drawn = range(len(task.draws))
     names = [draw.name for draw in task.draws]
     if len({*names}) < len(names) or not all(map(NAME.fullmatch, names)):
         yield "draws what has no name of its own"
@@ -215,11 +214,23 @@ def _draw_flaws(task: Task) -> Iterator[str]:
         if not (is_one and 0 < len(draw.values) <= MAX_VALUES and fits(NUMBER, draw.values)):
             yield f"draws {draw.name} from nothing"
     for thing in task.things:
-        if thing.when and not (is_condition(thing.when) and _computes(thing.when, (), draws=len(drawn))):
+        if thing.when and not (is_condition(thing.when) and _computes(thing.when, (), draws=len(task.draws))):
             yield "has a thing of which nobody knows whether it is there"
-        is_single = thing.kind.copies == 1 and bool(thing.kind.spots)
-        if any(thing.by) and not (is_single and all(not number or abs(number) - 1 in drawn for number in thing.by)):
+        along = getattr(thing.kind, "along", ())
+        coordinates = sum(map(len, along or thing.kind.at))
+        is_single = (bool(along) or thing.kind.copies == 1) and len(thing.by) == coordinates
+        if thing.by and not (is_single and all(_is_coordinate(program, task.draws) for program in thing.by)):
             yield "has a thing of which nobody knows where it is"
+        drawn = thing.many > 0 and next(iter(task.draws[thing.many - 1 :]), None)
+        if thing.many and not (drawn and drawn.is_count and max(drawn.values) <= thing.kind.copies):
+            yield "has a thing of which nobody knows how many there are"
+
+
+def _is_coordinate(program: Program, draws: Sequence[Draw]) -> bool:
+    """True if a program is a coordinate whatever is drawn."""
+    if not _computes(program, (), draws=len(draws)):
+        return False
+    return all(fits(COORDINATE, found) for _, found in intervals_of(program, draws))
 
 
 def _world_flaws(task: Task) -> Iterator[str]:

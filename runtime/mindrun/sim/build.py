@@ -40,7 +40,7 @@ def build(
     reached = reachable(graph, master)
     skills, most = skill_rows(graph, reached, weights, learners, addresses, programs)
     rewards, ends = task_rows.reward_rows(task, programs), task_rows.end_rows(task, programs)
-    presences = task_rows.presence_rows(task, programs)
+    contents = task_rows.content_rows(graph, task, parameters, programs)
     used, aside = used_sensors(graph, reached, task)
     exact = promised_sensors(graph, reached, used + aside)
     sensors, remembered = sensor_rows(graph, (used, aside, exact), task, programs, parameters)
@@ -49,14 +49,13 @@ def build(
     events, patches, arrivals = task_rows.event_rows(task)
     walls = [wall for thing in task.things for wall in thing.kind.walls]
     tables = Tables(
-        **sensors, **skills, **task_rows.walker_rows(task, graph.tick, parameters),
+        **sensors, **skills, **contents,
         world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside + exact, master),
         codes=np.array(programs.rows, CODE), actuators=driven, memories=memory_rows(graph),
-        things=task_rows.thing_rows(graph, task, parameters), loose=task_rows.loose_rows(task, graph.tick, parameters),
-        obstacles=task_rows.obstacle_rows(task, parameters), options=task_rows.option_rows(task),
+        loose=task_rows.loose_rows(task, graph.tick, parameters), options=task_rows.option_rows(task),
         walls=np.array(walls, np.float64).reshape(-1, BOX_COLUMNS),
         measures=measures, events=events, ends=ends, rewards=rewards,
-        presences=presences, choices=np.array(parameters.choices, np.float64),
+        makings=parameters.makings(), choices=np.array(parameters.choices, np.float64),
         measured=rows_of(graph, used + aside + exact), library=library,
         parameters=parameters.table(),  # last: all others add to them
     )  # fmt: skip

@@ -17,8 +17,8 @@ ITEM, ZONE, POWER, BOX, BALL, WALKER = range(6)
 STAYS, MOVES, VANISHES = range(3)
 PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE, ITS_REWARD, APART, DRAWN_NUMBER = range(8)
 REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION, SUCCESS, ITS_END, LEAVE = range(8)
-# How a number of a run comes about; before the world: CHOSEN and BETWEEN.
-CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, TIMES, OVER, INVERSE, DAMPING, CHOSEN, BETWEEN = range(10)
+# How a number of a run comes about; before the world: CHOSEN and what comes after it.
+CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, TIMES, OVER, INVERSE, DAMPING, CHOSEN, BETWEEN, MADE = range(11)
 
 GOING_ON, LOST, BROKEN_OFF = -1, -2, -4  # no event has ended a run: out of time, beyond FAR, its environment has
 AWAY = 1e30  # units: where a box is that is none
@@ -92,9 +92,11 @@ THING = _columns(
 LOOSE = _columns(i8="thing is_round density friction slower number turn")
 WALKING = _columns(i8="thing way ways copy is_anywhere is_drawn step turn after afters aim", f8="range")
 WAY = _columns(i8="first places")
+CORNER = _columns(i8="next x_row y_row", f8="x y")
 OBSTACLE = _columns(i8="columns rows count option options x_row y_row", f8="first last grid jitter x y low high")
 MEASURES = _columns(i8="kind thing things of ofs over ring row", f8="beyond")
-PRESENCE = _columns(i8="thing when whens")
+MAKING = _columns(i8="row code length")
+PRESENCE = _columns(i8="thing box boxes when whens")
 EVENT = _columns(i8="kind thing things to tos arrival columns rows board", f8="patch")
 END = _columns(i8="event times when whens succeeds is_end box boxes")
 REWARD = _columns(i8="code length on each eachs when whens")
@@ -169,9 +171,10 @@ class Tables(Block):
     loose: Annotated[Array, table(LOOSE)]
     walkers: Annotated[Array, table(WALKING)]
     ways: Annotated[Array, table(WAY)]  # that walkers go along
-    corners: Annotated[Array, table(F8, 2)]  # [places, 3]: the places of ways, and the number of the one after each
+    corners: Annotated[Array, table(CORNER)]  # the places of ways
     options: Annotated[Array, table(F8, 2)]  # [places, 2]: those of which one is drawn
-    presences: Annotated[Array, table(PRESENCE)]  # of things that are not there in every run
+    makings: Annotated[Array, table(MAKING)]  # of numbers that are made of those that the task draws
+    presences: Annotated[Array, table(PRESENCE)]  # of things and boxes that are not there in every run
     choices: Annotated[Array, table(F8)]  # the values of numbers that the task draws
     obstacles: Annotated[Array, table(OBSTACLE)]
     walls: Annotated[Array, table(F8, 2)]  # [walls, BOX_COLUMNS]: the boxes that stand in the same places in every run

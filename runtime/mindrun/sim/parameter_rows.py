@@ -20,6 +20,8 @@ from mindrun.sim.codes import (
     DRAWN_WHOLE,
     FAILING,
     INVERSE,
+    MADE,
+    MAKING,
     OVER,
     PARAMETER,
     Row,
@@ -57,11 +59,18 @@ class Parameters:
             self._drawn[each.noun, each.of, each.argument] = row, each
         self._failing = {each.actuator: self._add(FAILING, low=1.0 - each.rate) for each in task.fails}
         self.choices: list[float] = []
-        self._given = [self._draw(each) for each in task.draws]
+        self.given = [self._draw(each) for each in task.draws]  # the rows of what the task draws
+        self._makings: list[Row] = []
 
-    def given(self, number: int) -> int:
-        """The row of a number that the task draws, by its place from 1 on or below 0; SAME_IN_EVERY_RUN for 0."""
-        return self._given[abs(number) - 1] if number else SAME_IN_EVERY_RUN
+    def made(self, code: int, length: int) -> int:
+        """The row of what a program makes of the numbers that the task draws."""
+        row = self._add(MADE)
+        self._makings.append({"row": row, "code": code, "length": length})
+        return row
+
+    def makings(self) -> NDArray[Any]:
+        """Rows of MAKING."""
+        return records(self._makings, MAKING)
 
     def _draw(self, draw: Draw) -> int:
         if draw.is_range:

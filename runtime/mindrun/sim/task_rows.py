@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from itertools import accumulate, count
-from math import copysign
 from typing import Any
 
 import numpy as np
@@ -27,6 +26,7 @@ SLOP_UNITS = float(np.float32(0.1))  # how deep Chipmunk lets things stand in ea
 SLOP_SHARE = 0.25  # of their least half side is the most
 LEAST_SOLID_UNITS = 1e-3  # half a side that is smaller counts as this
 MIN_NEAR_UNITS = 1.0  # beyond the body's rim
+EVERY_RUN: Row = {"x_row": SAME_IN_EVERY_RUN, "y_row": SAME_IN_EVERY_RUN}  # a place that is the same in all
 NOWHERE = range(-1, -1)  # rows of a thing that the task does not contain
 
 
@@ -78,7 +78,17 @@ def hash_numbers(task: Task) -> tuple[int, list[int], list[int]]:
     return robot, numbers, [number % size for number in (robot, *numbers)]
 
 
-def thing_rows(graph: Graph, task: Task, parameters: Parameters) -> Array:
+def content_rows(graph: Graph, task: Task, parameters: Parameters, programs: Programs) -> dict[str, Array]:
+    """The tables of what a task contains; programs of where it is, and of whether it is there, go to `programs`."""
+    return {
+        "things": thing_rows(graph, task, parameters, programs),
+        "obstacles": obstacle_rows(task, parameters, programs),
+        "presences": presence_rows(task, programs),
+        **walker_rows(task, graph.tick, parameters, programs),
+    }
+
+
+def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Programs) -> Array:
     """Rows of THING: all things of the task but obstacles, as in `things_of`."""
     rows: list[Row] = []
     asked = {(event.outcome, event.thing) for event in task.events if event.outcome}
@@ -93,7 +103,7 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters) -> Array:
         low, high = kind.distances(task.scene)
         x, y = kind.places[copy] if kind.places else (0.0, 0.0)
         is_drawn = bool(kind.options) or (kind.walks and not kind.wanders)
-        own = _drawn_place(thing, parameters) if any(thing.by) else {}
+        own = _drawn_places(thing, parameters, programs)[:1] if not kind.ways else []
         if kind.is_loose:  # not in the robot
             low = max(low, graph.body.radius + kind.largest * HALF_DIAGONAL)
         row: dict[str, float] = {
@@ -103,8 +113,8 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters) -> Array:
             "is_round": kind.is_round, "is_area": kind.is_area, "is_goal": thing.name in never,
             "loose": next(loose) if kind.is_loose else -1, "settles": kind.is_loose and zones_stay,
             "walker": next(walkers) if kind.walks else -1, "turn": turns[1 + number],
-            "copy": copy, "copies": kind.copies, "option": options, "options": len(kind.options),
-            "x_row": SAME_IN_EVERY_RUN, "y_row": SAME_IN_EVERY_RUN, **_region(kind, rows_by_name(task)), **own,
+            "copy": copy, "copies": kind.copies, "option": options, "options": 0 if own else len(kind.options),
+            **_region(kind, rows_by_name(task)), **(own[0] if own else EVERY_RUN),
         }  # fmt: skip
         options += len(kind.options) if copy + 1 == kind.copies else 0
         for what in ("reached", "delivered"):
@@ -125,21 +135,24 @@ def _region(kind: ThingKind, places: Mapping[str, range]) -> Row:
     return {"is_within": True, "left": left, "right": right, "below": below, "above": above}
 
 
-def _drawn_place(thing: Thing, parameters: Parameters) -> Row:
-    """The columns of a thing at numbers that the task draws: x and y are their signs where these are rows."""
-    place = thing.kind.spots[0]
-    x, y = (copysign(1.0, number) if number else at for number, at in zip(thing.by, place, strict=True))
-    rows = dict(zip(("x_row", "y_row"), map(parameters.given, thing.by), strict=True))
-    return {**rows, "x": x, "y": y, "options": 0}
+def _drawn_places(thing: Thing, parameters: Parameters, programs: Programs) -> list[Row]:
+    """The columns of each place of a thing that the task draws, which go to `programs`; none where it does not."""
+    rows = [parameters.made(*programs.add(program)) for program in thing.by]
+    return [{"x_row": x, "y_row": y} for x, y in zip(rows[::2], rows[1::2], strict=True)]
 
 
 def presence_rows(task: Task, programs: Programs) -> Array:
-    """Rows of PRESENCE, one for each copy; their conditions go to `programs`."""
+    """Rows of PRESENCE, one for each copy, or one for all boxes of a thing; their conditions go to `programs`."""
     rows: list[Row] = []
-    for row, thing in enumerate(things_of(task)):
-        if thing.when:
-            when, whens = programs.add(thing.when)
-            rows.append({"thing": row, "when": when, "whens": whens})
+    places, boxes = rows_by_name(task), boxes_by_name(task)
+    for thing in task.things:
+        its = (boxes if thing.kind.is_obstacle else places)[thing.name]
+        step = len(its) if thing.kind.is_obstacle and not thing.many else 1
+        for copy, first in enumerate(its[:: max(1, step)]):
+            if program := thing.presence(copy):
+                when, whens = programs.add(program)
+                about = {"thing": -1, "box": first, "boxes": step} if thing.kind.is_obstacle else {"thing": first}
+                rows.append({**about, "when": when, "whens": whens})
     return records(rows, codes.PRESENCE)
 
 
@@ -149,17 +162,17 @@ def option_rows(task: Task) -> Array:
     return np.array([place for thing in apart for place in thing.kind.options], np.float64).reshape(-1, 2)
 
 
-def obstacle_rows(task: Task, parameters: Parameters) -> Array:
+def obstacle_rows(task: Task, parameters: Parameters, programs: Programs) -> Array:
     """Rows of OBSTACLE."""
     rows: list[Row] = []
     option = sum(len(thing.kind.options) for thing in task.things if not thing.kind.is_obstacle)
     for thing in (thing for thing in task.things if thing.kind.is_obstacle):
-        kind, own = thing.kind, _drawn_place(thing, parameters) if any(thing.by) else {}
+        kind, own = thing.kind, _drawn_places(thing, parameters, programs)
         low, high = kind.distances(task.scene)
         row = {"first": kind.size.first, "last": kind.size.last, "low": low, "high": high, "option": option}
-        row |= {"x_row": SAME_IN_EVERY_RUN, "y_row": SAME_IN_EVERY_RUN}
         option += len(kind.options)
-        rows.extend({**row, **each, **own} for each in kind.rows(task.scene))
+        drawn = {**own[0], "options": 0} if own else EVERY_RUN
+        rows.extend({**row, **each, **drawn} for each in kind.rows(task.scene))
     return records(rows, codes.OBSTACLE)
 
 
@@ -179,7 +192,7 @@ def loose_rows(task: Task, dt: float, parameters: Parameters) -> Array:
     return records(rows, codes.LOOSE)
 
 
-def walker_rows(task: Task, dt: float, parameters: Parameters) -> dict[str, Array]:
+def walker_rows(task: Task, dt: float, parameters: Parameters, programs: Programs) -> dict[str, Array]:
     """Rows of WALKING, in the order of the things that they are rows of, and their ways with their corners.
 
     A direction that drifts by up to √(3·dt)·turning either way in each tick has drifted by `turning` in a second, in
@@ -187,28 +200,30 @@ def walker_rows(task: Task, dt: float, parameters: Parameters) -> dict[str, Arra
     seeks, −1 of what flees: the nearest of `afters` things from the thing `after` on, or the robot with none of them.
     """
     rows, ways = list[Row](), list[Row]()
-    corners: list[tuple[float, float, int]] = []
+    corners = list[Row]()
     places = rows_by_name(task)
     for i, thing in enumerate(things_of(task)):
         kind: Any = thing.kind
         if kind.walks:
             after = places.get(kind.thing, NOWHERE)
+            its = kind.ways[:1] if thing.by else kind.ways
             rows.append({
-                "thing": i, "way": len(ways), "ways": len(kind.ways), "copy": i - places[thing.name].start,
-                "is_anywhere": kind.from_ == ANYWHERE, "is_drawn": bool(kind.ways) and not kind.places,
+                "thing": i, "way": len(ways), "ways": len(its), "copy": i - places[thing.name].start,
+                "is_anywhere": kind.from_ == ANYWHERE, "is_drawn": len(its) > 1 or kind.from_ == ANYWHERE,
                 "aim": bool(kind.seeks) - bool(kind.flees), "range": kind.range,
                 "after": after.start, "afters": len(after),
                 "step": parameters.row("thing", thing.name, "speed", kind.speed, (TIMES, dt)),
                 "turn": parameters.row("thing", thing.name, "turning", kind.turning, (TIMES, float(np.sqrt(3 * dt)))),
             })  # fmt: skip
-            for along in kind.ways if i + 1 == places[thing.name].stop else ():
+            for along in its if i + 1 == places[thing.name].stop else ():
                 first, count = len(corners), len(along)
                 ways.append({"first": first, "places": count})
-                corners += [(*place, first + (number + 1) % count) for number, place in enumerate(along)]
+                said = _drawn_places(thing, parameters, programs) or [{**EVERY_RUN, "x": x, "y": y} for x, y in along]
+                corners += [{**each, "next": first + (number + 1) % count} for number, each in enumerate(said)]
     return {
         "walkers": records(rows, codes.WALKING),
         "ways": records(ways, codes.WAY),
-        "corners": np.array(corners, np.float64).reshape(-1, 3),
+        "corners": records(corners, codes.CORNER),
     }
 
 
@@ -225,8 +240,7 @@ def measure_rows(task: Task, parameters: Parameters) -> tuple[Array, int]:
             "over": measure.over, "ring": ring if measure.over else 0, "beyond": measure.beyond,
         })  # fmt: skip
         ring += measure.over
-    drawn = range(1, len(task.draws) + 1)
-    rows += [{"kind": codes.DRAWN_NUMBER, "row": parameters.given(number)} for number in drawn]
+    rows += [{"kind": codes.DRAWN_NUMBER, "row": row} for row in parameters.given]
     return records(rows, codes.MEASURES), ring
 
 

@@ -35,7 +35,7 @@ def set_numbers(tables, world, lane):
             numbers[i, lane] = min(np.floor(uniform(random, lane, row.low, row.high + 1.0)), row.high)
         elif row.form == FAILING:
             numbers[i, lane] = fails_at(uniform(random, lane, 0.0, 1.0), row.low, tables.world[0].ticks)
-        elif row.form != CHOSEN and row.form != BETWEEN:  # which are drawn already
+        elif row.form < CHOSEN:  # all others are known already
             numbers[i, lane] = computed(row.form, numbers[row.of, lane], row.low)
 
 

@@ -28,7 +28,6 @@ from mindrun.sim.lanes.solid import is_clear, put_box
 from mindrun.sim.state import WorldState
 from mindrun.sim.units import unit
 
-NEXT_COLUMN = 2  # of a corner: the number of the one after it
 MAX_TRIES = 1000
 ENDLESS_UNITS = 1e300  # half the side of what is no arena is infinite, above this
 
@@ -80,13 +79,10 @@ def place_for(tables, world, i, is_begun, lane):
 
 
 def at_drawn(world, placed, lane):
-    """The place of something, whose x and y may be numbers that the task draws, or these negated."""
-    x, y = placed.x, placed.y
+    """The place of something, whose x and y may be made of numbers that the task draws."""
     if placed.x_row >= 0:
-        x *= world.numbers[placed.x_row, lane]
-    if placed.y_row >= 0:
-        y *= world.numbers[placed.y_row, lane]
-    return x, y
+        return world.numbers[placed.x_row, lane], world.numbers[placed.y_row, lane]
+    return placed.x, placed.y
 
 
 def choose(tables, world, i, is_begun, lane):
@@ -129,24 +125,26 @@ def set_out(tables, world, i, lane):
     corner, far = first + walker.copy % places, 0.0
     if walker.is_anywhere:
         for k in range(first, first + places):
-            far += stretch(tables.corners, k)
+            far += stretch(tables, world, k, lane)
         far, corner = uniform(world.random, lane, 0.0, far), first
-        while corner < first + places - 1 and far > stretch(tables.corners, corner):
-            far -= stretch(tables.corners, corner)
+        while corner < first + places - 1 and far > stretch(tables, world, corner, lane):
+            far -= stretch(tables, world, corner, lane)
             corner += 1
-    goal = int(tables.corners[corner, NEXT_COLUMN])
+    goal = tables.corners[corner].next
     world.goal[i, lane] = goal
-    x, y = tables.corners[corner, X], tables.corners[corner, Y]
+    x, y = at_drawn(world, tables.corners[corner], lane)
     if far > 0.0:
-        share = min(1.0, far / stretch(tables.corners, corner))
-        x, y = x + (tables.corners[goal, X] - x) * share, y + (tables.corners[goal, Y] - y) * share
+        to_x, to_y = at_drawn(world, tables.corners[goal], lane)
+        share = min(1.0, far / stretch(tables, world, corner, lane))
+        x, y = x + (to_x - x) * share, y + (to_y - y) * share
     return x, y
 
 
-def stretch(corners, corner):
+def stretch(tables, world, corner, lane):
     """The length of a way from a corner to the next one."""
-    goal = int(corners[corner, NEXT_COLUMN])
-    dx, dy = corners[goal, X] - corners[corner, X], corners[goal, Y] - corners[corner, Y]
+    x, y = at_drawn(world, tables.corners[corner], lane)
+    to_x, to_y = at_drawn(world, tables.corners[tables.corners[corner].next], lane)
+    dx, dy = to_x - x, to_y - y
     return np.sqrt(dx * dx + dy * dy)
 
 

@@ -4,12 +4,12 @@ import numpy as np
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import ANGLE, COSINE, SINE, X, Y, sine_cosine
-from mindrun.sim.codes import DRAWN_NUMBER, GOING_ON, LEAVE, LOST, SERVO, VISIT, Tables
+from mindrun.sim.codes import AWAY, DRAWN_NUMBER, GOING_ON, LEAVE, LOST, SERVO, VISIT, Tables
 from mindrun.sim.lanes.drawn_numbers import draw_numbers, set_numbers
 from mindrun.sim.lanes.judge import patch_of
 from mindrun.sim.lanes.placement import draw, vanish
 from mindrun.sim.lanes.reaching import begin_inside
-from mindrun.sim.lanes.solid import is_lost
+from mindrun.sim.lanes.solid import is_lost, put_box
 from mindrun.sim.lanes.think import run_program
 from mindrun.sim.state import PLACE_ROWS, Jobs, State
 from mindrun.sim.units import unit, unit_where
@@ -52,6 +52,8 @@ def begin_job(tables: Tables, state: State, jobs: Jobs, lane: int) -> int:
     state.run.job[lane] = job
     world.seed[lane] = world.random[lane] = jobs.seeds[jobs.seed[job]]
     draw_numbers(tables, world, world.random[lane], lane)
+    if len(tables.makings) > 0:
+        make_numbers(tables, state, lane)
     world.random_aside[lane] = world.random[lane] ^ MEASURED_ASIDE
     draw(tables, world, lane)
     set_numbers(tables, world, lane)
@@ -64,19 +66,34 @@ def begin_job(tables: Tables, state: State, jobs: Jobs, lane: int) -> int:
     return True
 
 
+@unit_where(lambda tables: len(tables.makings) > 0)
+def make_numbers(tables: Tables, state: State, lane: int) -> None:
+    """Compute the numbers of a lane that are made of those that its task draws."""
+    for i in range(len(tables.makings)):
+        making = tables.makings[i]
+        state.world.numbers[making.row, lane] = of_drawn(tables, state, making.code, making.length, lane)
+
+
 @unit_where(lambda tables: len(tables.presences) > 0)
 def leave_out(tables: Tables, state: State, lane: int) -> None:
-    """Remove the things of a lane that are not there in its run."""
-    mind, judged = state.mind, state.judge
-    for i in range(len(tables.measures)):
-        if tables.measures[i].kind == DRAWN_NUMBER:
-            judged.measures[i, lane] = state.world.numbers[tables.measures[i].row, lane]
+    """Remove the things and boxes of a lane that are not there in its run."""
     for i in range(len(tables.presences)):
         presence = tables.presences[i]
-        mind.active[0] = lane
-        run_program(tables, state, presence.when, presence.whens, 0, 1, False)
-        if not mind.stack[0, 0] > 0.0:
-            vanish(tables, state.world, presence.thing, lane)
+        if not of_drawn(tables, state, presence.when, presence.whens, lane) > 0.0:
+            if presence.thing >= 0:
+                vanish(tables, state.world, presence.thing, lane)
+            for b in range(presence.box, presence.box + presence.boxes):
+                put_box(state.world.boxes[lane], b, AWAY, AWAY, 0.0, 0.0)
+
+
+def of_drawn(tables, state, code, length, lane):
+    """The value of a program of what the task of a lane draws, when its run begins."""
+    for i in range(len(tables.measures)):
+        if tables.measures[i].kind == DRAWN_NUMBER:
+            state.judge.measures[i, lane] = state.world.numbers[tables.measures[i].row, lane]
+    state.mind.active[0] = lane
+    run_program(tables, state, code, length, 0, 1, False)
+    return state.mind.stack[0, 0]
 
 
 def reset(tables, state, lane):

@@ -26,7 +26,7 @@ from mindrun.numbers.arithmetic import (
 from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PERSISTENCE_TICKS, PUSH, STEERING, TORQUE, Tables
 from mindrun.sim.lanes.act import carry
 from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_down
-from mindrun.sim.lanes.placement import NEXT_COLUMN
+from mindrun.sim.lanes.placement import at_drawn
 from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
 from mindrun.sim.lanes.solid import CLOSED_UNITS, find_swift, is_barred, is_free, within
 from mindrun.sim.lanes.strides import make_tick
@@ -270,12 +270,12 @@ def go_along(tables, world, i, x, y, lane):
     """Step towards the next place of its way; where it would come past that, stop there for this tick."""
     walker, goal = tables.walkers[i], world.goal[i, lane]
     step = world.numbers[walker.step, lane]
-    to_x, to_y = tables.corners[goal, X], tables.corners[goal, Y]
+    to_x, to_y = at_drawn(world, tables.corners[goal], lane)
     dx, dy = to_x - x, to_y - y
     far = np.sqrt(dx * dx + dy * dy)
     if far <= step:
         put_thing(world.things, walker.thing, to_x, to_y, lane)
-        world.goal[i, lane] = int(tables.corners[goal, NEXT_COLUMN])
+        world.goal[i, lane] = tables.corners[goal].next
     else:
         share = step / far
         put_thing(world.things, walker.thing, x + dx * share, y + dy * share, lane)
