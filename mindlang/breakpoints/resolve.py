@@ -144,7 +144,9 @@ class _Resolver:
             self.findings.error("impossible-event", written.span, message, hint)
             return None
         event: EventKind | None = event_in(written, world, self.findings)
-        if event is None or event in task.events or not (self.subject.is_recorded or event.outcome):
+        if event is None or event in task.events:
+            return event
+        if not self.subject.is_recorded and all(of in task.events or not of.outcome for of in event.single):
             return event
         message = f"No line of task {task.name} speaks of this event, so nobody looks for it."
         hint = f"Add the line counts {' '.join(written.span.text.split())} to the task."

@@ -20,7 +20,7 @@ _NUMBER = re.compile(r"([+-]?)[ \t]*([0-9./]+)")
 _FORMS: Mapping[str, type[Struct]] = {
     "master": syntax.Master, "tick": syntax.Tick, "mind": syntax.Version, "unit": syntax.Unit, "number": syntax.Number,
     "reads": syntax.Reads, "gate": syntax.Gate, "chooses": syntax.Chooses, "stays": syntax.Stays,
-    "uses": syntax.Uses,
+    "uses": syntax.Uses, "within": syntax.Within,
     "requires": syntax.Requires, "maintains": syntax.Maintains, "achieves": syntax.Achieves,
     "contains": syntax.Contains, "varies": syntax.Varies, "fails": syntax.Fails, "lasts": syntax.Lasts,
     "counts": syntax.Counts, "transmission": syntax.Transmits,
@@ -80,7 +80,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         return Name(str(token), self._span(token))
 
     TITLE = LETTER = PART = WHOLE = TASK = COMPUTED = NUMBERED = SEVERAL = ORDERED = BROKEN = NAME
-    GYMNASIUM = ENVIRONMENT = FROM = TO = BY = ON = FACING = AT = NAME
+    GYMNASIUM = ENVIRONMENT = FROM = TO = BY = ON = OF = FACING = AT = WITHIN = NAME
 
     def COMPARE(self, token: Token) -> str:  # noqa: N802
         """A sign between two values."""
@@ -190,6 +190,10 @@ class Builder(Transformer_NonRecursive[Token, Any]):
 
     def call(self, meta: Any, parts: list[Any]) -> Phrase:
         return Phrase(parts[0], tuple(parts[1:]), self._span(meta))
+
+    def event(self, meta: Any, parts: list[Any]) -> Phrase:
+        phrase, within = (*parts, None)[:2]
+        return Phrase(phrase.kind, phrase.arguments, self._span(meta), within)
 
     def numbers(self, meta: Any, parts: list[Any]) -> Numbers:
         return Numbers(tuple(parts), self._span(meta))

@@ -175,6 +175,9 @@ def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
     ending = [end.event for end in task.ends if end.event is not None]
     if not all(event in events for event in (*ending, *task.counts, *rewarded)):
         yield "names an event that is not there"
+    others = [event.within.of for event in task.events if event.within]
+    if any(other.within or other.is_of_success or other not in task.events for other in others):
+        yield "has an event that comes after one that is not there"
     yield from _end_flaws(task, width, actuators)
     for reward in task.rewards:
         known = readings, len(task.measures), reward.each is not None, actuators, len(task.draws)

@@ -95,7 +95,7 @@ WAY = _columns(i8="first places")
 OBSTACLE = _columns(i8="columns rows count option options x_row y_row", f8="first last grid jitter x y low high")
 MEASURES = _columns(i8="kind thing things of ofs over ring row", f8="beyond")
 PRESENCE = _columns(i8="thing when whens")
-EVENT = _columns(i8="kind thing things to tos arrival columns rows board", f8="patch")
+EVENT = _columns(i8="kind thing things to tos arrival columns rows board after window left", f8="patch")
 END = _columns(i8="event times when whens succeeds is_end box boxes")
 REWARD = _columns(i8="code length on each eachs when whens")
 WORLD = _columns(
