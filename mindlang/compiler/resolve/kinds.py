@@ -76,14 +76,16 @@ def make_event(written: Phrase, scope: Scope, findings: Findings) -> Any:
     units = {"s": 1 / (amount.tick_seconds or 1.0), "ticks": 1.0}
     time = Quantity("a time", units, 1.0 if is_whole else LEAST_TICKS, WITHIN_TICKS.high, is_whole)
     ticks = convert(amount, time, findings)
-    within = f"within {amount.span.text}"
+    within, said_ = f"within {amount.span.text}", said(phrase)
     if other and other == event:
-        hint = f"Name another event, or leave {within} of it out."
-        findings.error("idle-within", phrase.span, f"{said(phrase)} is always {within} of itself.", hint)
+        hint = f"Name another event, or leave {within} of {said_} out."
+        findings.error("within", phrase.span, f"{said_} is always {within} of itself.", hint)
     elif other and other.is_of_success:
         hint = f"Turn it round: success {within} of what came before."
-        findings.error("idle-within", phrase.span, "Nothing comes after a success, which ends the run.", hint)
-    return replace(event, within=Within(round(ticks), other)) if event and other and ticks else None
+        findings.error("within", phrase.span, "Nothing comes after a success, which ends the run.", hint)
+    elif event and other and ticks:
+        return replace(event, within=Within(round(ticks), other))
+    return None
 
 
 def _known_kinds(noun: str, name: str, scope: Scope) -> str:
