@@ -51,7 +51,7 @@ class Within:
 class EventKind(AboutThing):
     """An event that can happen in any world; a kind says what is different about it.
 
-    One that is `within` a time of another happens only in that; the other has no such time.
+    With `within 5 s of` and another event behind it, it happens only soon after that, or in the same tick.
     """
 
     within: Within | None = left_out(None, is_argument=False)
