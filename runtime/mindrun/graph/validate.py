@@ -220,7 +220,7 @@ def _draw_flaws(task: Task) -> Iterator[str]:
     for thing in task.things:
         if thing.when and not (is_condition(thing.when) and _computes(thing.when, (), draws=len(drawn))):
             yield "has a thing of which nobody knows whether it is there"
-        is_single = thing.kind.copies == 1 and bool(thing.kind.spots)
+        is_single = thing.kind.copies <= 1 and bool(thing.kind.spots)  # an obstacle at a place has no count
         if any(thing.by) and not (is_single and all(not number or abs(number) - 1 in drawn for number in thing.by)):
             yield "has a thing of which nobody knows where it is"
 
