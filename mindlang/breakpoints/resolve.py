@@ -118,6 +118,9 @@ class _Resolver:
             hint = "It is for the recording of one: mindc view day.rec NAME.bundle --break FILE."
             message = f"{word} is what happens to a robot, not in the simulator."
             self.findings.error("impossible-event", written.span, message, hint)
+        elif written.within:
+            message = f"{word} of a robot comes after no other event."
+            self.findings.error("within", written.within.span, message, "Leave it out.")
         elif not said:
             return Stopped() if word == STOPPED else Fault()
         elif word == STOPPED:
