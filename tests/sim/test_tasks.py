@@ -274,7 +274,7 @@ task Test in arena size 50
 """
     one = rollout(task)
     scores = Rollout(Policy(one.graph, {}), "Test", "Seek", lanes=lanes).score(np.zeros((1, 0), np.float32), range(12))
-    for seed in range(12):
+    for seed in range(16):
         seen = sum(moment.events for moment in trace(one, seed).moments)
         assert np.array_equal(scores.by_event[0, seed], seen)
     assert len(one.task.events) == 4
@@ -313,3 +313,23 @@ task Test in arena size 60
     counts = [sum(m.events for m in moments(soon, seed=seed)).tolist() for seed in range(8)]
     assert score(soon).by_event[0].tolist() == counts
     assert len({each[2] for each in counts}) > 1
+
+
+def test_a_success_soon_after_an_event() -> None:
+    task = """
+task Test in arena size 60
+  contains object is item size 1 reached moves
+  contains home is zone size 12 reached moves
+  lasts 6000 ticks
+  succeeds on 8 reach of object
+  rewards 7 on success within 1500 ticks of leave of home
+  counts leave of home
+"""
+    paid = []
+    for seed in range(16):
+        run = moments(task, seed=seed)
+        left = [m.tick for m in run if m.events[2]]  # behind the end's event, and the success that is paid
+        paid.append(run[-1].lines[0] == 7)
+        assert paid[-1] == any(run[-1].tick - 1500 <= tick for tick in left)
+        assert run[-1].events[0] == 1
+    assert 0 < sum(paid) < len(paid)
