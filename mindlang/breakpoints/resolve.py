@@ -118,6 +118,9 @@ class _Resolver:
             hint = "It is for the recording of one: mindc view day.rec NAME.bundle --break FILE."
             message = f"{word} is what happens to a robot, not in the simulator."
             self.findings.error("impossible-event", written.span, message, hint)
+        elif written.within:
+            message = f"{word} of a robot comes after no other event."
+            self.findings.error("within", written.within.span, message, "Leave it out.")
         elif not said:
             return Stopped() if word == STOPPED else Fault()
         elif word == STOPPED:
@@ -144,7 +147,9 @@ class _Resolver:
             self.findings.error("impossible-event", written.span, message, hint)
             return None
         event: EventKind | None = event_in(written, world, self.findings)
-        if event is None or event in task.events or not (self.subject.is_recorded or event.outcome):
+        if event is None or event in task.events:
+            return event
+        if not self.subject.is_recorded and all(of in task.events or not of.outcome for of in event.single):
             return event
         message = f"No line of task {task.name} speaks of this event, so nobody looks for it."
         hint = f"Add the line counts {' '.join(written.span.text.split())} to the task."

@@ -110,8 +110,9 @@ class Watcher:
 
 def noticing(setup: RunSetup, breakpoints: Sequence[Breakpoint]) -> RunSetup:
     """The setup of the same run, with the events of breakpoints that its task does not notice added to the task."""
-    asked = dict.fromkeys(each.cause.event for each in breakpoints if isinstance(each.cause, Happens))
-    missing = [event for event in asked if isinstance(event, EventKind) and event not in setup.task.events]
+    causes = [each.cause.event for each in breakpoints if isinstance(each.cause, Happens)]
+    asked = [of for event in causes if isinstance(event, EventKind) for of in (event, *event.single[1:])]
+    missing = [event for event in dict.fromkeys(asked) if event not in setup.task.events]
     if not missing:
         return setup
     policy, task = setup.ready.policy, replace(setup.task, events=(*setup.task.events, *missing))

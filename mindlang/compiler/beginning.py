@@ -168,6 +168,8 @@ class Beginning:
 
     def first_tick_count(self, event: EventKind, sensors: Iterable[SensorKind]) -> int:
         """How often an event happens in the first tick of every run, whatever the robot does."""
+        if event.within and not self.first_tick_count(event.within.of, sensors):
+            return 0
         if event.is_of_battery:
             batteries = [kind.battery for kind in sensors if kind.battery]
             charging = any(self.reached(thing.name) for thing in self.things if thing.kind and thing.kind.charges)

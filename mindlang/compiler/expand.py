@@ -85,13 +85,16 @@ def expand(names: Names, values: Mapping[str, Amount], tick_seconds: float, find
 
 
 def number_writer(names: Names, values: Mapping[str, Amount], tick_seconds: float) -> Callable[[Any], Any]:
-    """A function that replaces names of numbers in a line by their values, and gives its rates the length of a tick."""
+    """A function that replaces names of numbers in a line by their values.
+
+    What is for a second, or in seconds where an event comes soon after another, is given the length of a tick.
+    """
     words = frozenset(name.rpartition(".")[2] for name in values)  # all that stands of a name in a file with an alias
 
     def written(line: Any) -> Any:
         text = said(line)
         has_names = words and not words.isdisjoint(_WORD.findall(text))
-        if not has_names and "per" not in text:  # as most lines
+        if not has_names and "per" not in text and "within" not in text:  # as most lines
             return line
         found = mentions_in(line, names, None) if has_names else ()
         places = {each.name.span for each in found if each.noun == "number" and each.name.text in values}
@@ -100,7 +103,7 @@ def number_writer(names: Names, values: Mapping[str, Amount], tick_seconds: floa
             match node:
                 case Amount():
                     amount = fill_number(node, values)
-                    return replace(amount, tick_seconds=tick_seconds) if amount.per == "s" else amount
+                    return replace(amount, tick_seconds=tick_seconds) if "s" in (amount.per, amount.unit) else amount
                 case Phrase(kind, ()) if kind.span in places:
                     return changed(Amount(1.0, "", kind.span, name=kind.text))
                 case Name(name, span) if span in places:

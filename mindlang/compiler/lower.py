@@ -6,6 +6,7 @@ from itertools import accumulate, count
 from typing import Any, TypeVar
 
 from mindrun.graph import graph
+from mindrun.kinds.events.event import EventKind
 
 from mindlang.compiler import model
 from mindlang.compiler.families import said
@@ -94,7 +95,7 @@ def _task(task: model.Task, places: Places) -> graph.Task:
     events: dict[Any, int] = {}
     ends = tuple(dict.fromkeys(_end(end, events, places) for end in task.ends))
     rewards = tuple(_reward(reward, events, places) for reward in task.rewards)
-    counts = tuple(dict.fromkeys(_index(event, events) for event in task.counts))
+    counts = tuple(dict.fromkeys(_event(event, events) for event in task.counts))
     whens = ((each, lower_condition(each.when, places) if each.when else ()) for each in task.things)
     things = tuple(graph.Thing(each.name, each.kind, when, each.by, each.many) for each, when in whens)
     return graph.Task(
@@ -103,11 +104,19 @@ def _task(task: model.Task, places: Places) -> graph.Task:
 
 
 def _end(end: model.End, events: dict[Any, int], places: Places) -> graph.End:
-    event = None if end.event is None else _index(end.event, events)
+    event = None if end.event is None else _event(end.event, events)
     if end.when is None:
         return graph.End(event, end.times, None, end.succeeds, opens=end.opens)
     text = spaced(f"ends {said(end.fact.when)}").removeprefix("ends when ")
     return graph.End(event, end.times, lower_condition(end.when, places), end.succeeds, text, end.opens)
+
+
+def _event(event: EventKind, known: dict[Any, int]) -> int:
+    """The place of an event among the known ones, to which it is added, and so is the one that it comes soon after."""
+    found = _index(event, known)
+    if event.within:
+        _index(event.within.of, known)
+    return found
 
 
 def _index(value: T, known: dict[T, int]) -> int:
@@ -119,7 +128,7 @@ def _reward(reward: model.Reward, events: dict[Any, int], places: Places) -> gra
     return graph.Reward(
         spaced(said(reward.fact)),
         _program(reward.amount, places),
-        None if reward.on is None else _index(reward.on, events),
+        None if reward.on is None else _event(reward.on, events),
         None if reward.each is None else places.readings[reward.each],
         None if reward.when is None else lower_condition(reward.when, places),
     )

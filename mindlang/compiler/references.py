@@ -154,6 +154,8 @@ def _in_phrase(noun: str, phrase: Phrase | None) -> Iterator[Named]:
     """The names among the arguments of a kind."""
     if phrase and phrase.arguments and (cls := find_kind(noun, phrase.kind.text)):
         yield from _in_arguments(phrase.arguments, [cls])
+    if phrase and phrase.within:
+        yield from _in_phrase(noun, phrase.within.of)
 
 
 def _in_arguments(written: Iterable[syntax.Argument], classes: Iterable[type[Any]]) -> Iterator[Named]:

@@ -114,10 +114,22 @@ class Argument(Struct, frozen=True):
 
 
 class Phrase(Struct, frozen=True):
-    """A kind and its arguments; in an expression also the bare name of a reading."""
+    """A kind and its arguments; in an expression also the bare name of a reading.
+
+    An event may have to come soon after another: `within` so long of that.
+    """
 
     kind: Name
     arguments: tuple[Argument, ...]
+    span: Span
+    within: "Within | None" = None
+
+
+class Within(Struct, frozen=True):
+    """`within AMOUNT of EVENT`"""
+
+    amount: Amount
+    of: Phrase
     span: Span
 
 

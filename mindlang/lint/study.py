@@ -76,7 +76,7 @@ class AnalysedWorld:
     def why_never_paid(self, reward: Reward) -> tuple[Span, str, str] | None:
         """Where and why a reward is never paid, and what to do; None of one that may be."""
         fact, value = reward.fact, self.range_in(reward)
-        if reward.on and fact.on and (why := reward.on.prevented(self)):
+        if reward.on and fact.on and (why := reward.on.hindrance(self)):
             return fact.on.span, *why
         if reward.when and (never := why_never(reward.when, value)):
             return reward.when.span, never, "Compare with something that is reached, or take the reward out."
@@ -175,7 +175,8 @@ class Study:
         ending = (end.event for task in self.mind.tasks for end in task.ends)
         paid = (reward.on for task in self.mind.tasks for reward in task.rewards)
         counted = (event for task in self.mind.tasks for event in task.counts)
-        return any(event.is_of_battery for event in (*ending, *paid, *counted) if event)
+        events = (single for event in (*ending, *paid, *counted) if event for single in event.single)
+        return any(event.is_of_battery for event in events)
 
     @cached_property
     def used(self) -> set[tuple[str, str]]:

@@ -106,7 +106,8 @@ class Worlds:
         read |= {self._names[reward.each[0]] for reward in task.rewards if reward.each}
         driven = {self.graph.named(edge.to, edge.target) for skill in skills for edge in skill.edges}
         happening = {*(end.event for end in task.ends), *(reward.on for reward in task.rewards)}
-        if any(task.events[event].is_of_battery for event in happening if event is not None):
+        events = (each for event in happening if event is not None for each in task.events[event].single)
+        if any(event.is_of_battery for event in events):
             read |= {*[sensor.name for sensor in self.graph.sensors if sensor.kind.battery][:1]}
         sources = (
             with_descendants(source_graph(self.graph.sensors), read & {each.name for each in self.graph.sensors}) | read

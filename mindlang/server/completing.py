@@ -79,6 +79,7 @@ UNITS: dict[type, tuple[str, ...]] = {
     syntax.Fails: ("%",),
     syntax.Influences: ("%",),
     syntax.Transmits: ("%",),
+    syntax.Within: ("s", "ticks"),
 }  # of an amount that is said by itself
 
 
@@ -351,7 +352,8 @@ def _sayable(line: CursorLine, nodes: Sequence[Any], known: list[Offer]) -> list
 def _words(line: CursorLine, accepted: set[str]) -> Iterator[Offer]:
     """The words of the language that mean something there."""
     is_like = bool(line.above and line.above.header.like)
-    keys_too = {"AT", "ALONG", "OR"} if "NAME" in accepted else set[str]()  # arguments there, which their kinds offer
+    keys_too = {"AT", "ALONG", "OR", "OF"} if "NAME" in accepted else set[str]()  # arguments, which their kinds offer
+    keys_too |= {"WITHIN"} if "AT" in accepted else set()
     for sort, said in _literals().items():
         for word in said if sort in accepted - keys_too else ():
             label = WORDS.get(word, {line.first: word}).get(line.first, "")

@@ -174,6 +174,10 @@ REWARDS = [
     ["rewards 5 on reach of nest by ball", "rewards 5 on reach of ball by coin", "rewards 5 on leave of dock"],
     ["rewards -5 on leave of nest by ball", "rewards -5 on leave of dock by coin"],
     ["rewards 50 on delivery of ball", "rewards 50 on delivery of coin to nest"],
+    [
+        "rewards 7 on reach of nest within 2 s of reach of dock",
+        "rewards 7 on collision within 9 ticks of reach of ball",
+    ],
 ]
 GATES = [" when {} < 0.7", " when {} > 0.2 and 1 > 0.5 otherwise 0.3"]
 VISITS = ["rewards 1 on visit of patch", "rewards 1 on visit of patch size 8"]

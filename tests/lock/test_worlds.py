@@ -153,6 +153,7 @@ task Fetch in arena size 80
   rewards 10 on reach of ball
   rewards 50 on delivery of ball
   rewards 2 on leave of bin by ball
+  rewards 3 on reach of ball within 300 ticks of leave of bin
   rewards -0.01 * distance of ball to bin per tick
   rewards 1 on visit of patch size 5
   rewards 0.1 * progress toward ball per tick
@@ -381,6 +382,8 @@ TEXTS = [
     ("crate is box size 2", "crate is box size 2 friction 0.2", "taught with crate friction 0.5, now 0.2"),
     ("crate is box size 2", "crate is ball size 2", None),
     ("  contains dock is power size 4\n", "", "its task has changed: no longer contains dock"),
+    ("within 300", "within 299", None),
+    ("of leave of bin\n", "of collision\n", None),
     ("rewards 10 on", "rewards 5 on", "its task has changed: rewards 10 on reach of ball, now 5"),
     (
         "rewards 0.01 * forward per tick when moving > 0.5",
@@ -457,6 +460,7 @@ def test_what_changed_is_a_sentence(old: str, new: str, told: str | None) -> Non
         ("neutral 0.5\nactuator claw", "neutral 50%  # said otherwise\nactuator claw"),
         ("  reads near\n  reads holding\n", "  reads holding\n  reads near\n"),
         ("  rewards 10 on reach of ball\n", "  rewards 10   on reach of ball\n"),
+        ("within 300 ticks", "within 5 s"),
         ("  ends on collision\n  ends on exhaustion\n", "  ends on exhaustion\n  ends on collision\n"),
         ("near + holding - home", "(near + holding) - home"),
         ("left_wheel 0 to 10%", "left_wheel 0% to 0.1"),

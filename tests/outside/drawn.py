@@ -202,4 +202,5 @@ def _task(rng: Random, world: str, sensors: list[str], actuators: list[str]) -> 
     lines += [end] if end else []
     lines += [rng.choice(["  succeeds on its end", f"  succeeds when {one} > 0.9"])] if succeeds else []
     lines += ["  counts its end"] if rng.random() < 0.3 else []
+    lines += ["  counts success within 3 ticks of its end"] if succeeds and rng.random() < 0.5 else []
     return [*lines, *(f"  rewards {line}" for line in chosen)]

@@ -82,8 +82,10 @@ class PlainOutside:
             if has_come:
                 self.ended = self.met = number
                 for i, event in enumerate(self.task.events):
-                    happened[i] += int(end.succeeds and not isinstance(event, ItsEnd))
-                    self.counts[i] += int(end.succeeds and not isinstance(event, ItsEnd))
+                    others = [event.within.of] if event.within else []  # its end, after which no tick comes
+                    is_soon = all(happened[self.task.events.index(other)] for other in others)
+                    happened[i] += int(end.succeeds and not isinstance(event, ItsEnd) and is_soon)
+                    self.counts[i] += int(end.succeeds and not isinstance(event, ItsEnd) and is_soon)
                 break
         for i, line in enumerate(self.task.rewards):
             if (line.on is None or happened[line.on]) and (line.when is None or value(line.when) > 0):

@@ -29,7 +29,7 @@ TOKENS = {
     "LETTER": PART,
     "ENVIRONMENT": "string.unquoted",
     **dict.fromkeys(("COMPUTED", "NUMBERED", "SEVERAL", "ORDERED", "BROKEN", "GYMNASIUM"), KIND),
-    **dict.fromkeys(("FROM", "TO", "BY", "ON", "FACING", "AT", "ALONG"), KEY),
+    **dict.fromkeys(("FROM", "TO", "BY", "ON", "OF", "WITHIN", "FACING", "AT", "ALONG"), KEY),
     **dict.fromkeys(("EXTREME", "AND", "OR", "TICK", "LEVEL"), WORD),
     **dict.fromkeys(("SIGN", "SPACED", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
 }
@@ -80,10 +80,9 @@ def _words(code: str) -> Iterator[re.Match[str]]:
 def _tokens(tree: Tree[Token], event: str) -> Iterator[tuple[Token, str]]:
     """The tokens with their scopes; in an event even a bare name is a function."""
     names = 0
-    is_about_event = tree.data in ("ends", "succeeds", "counts", "rewards", "stop", "often", "until")
-    for number, child in enumerate(tree.children):
+    for child in tree.children:
         if isinstance(child, Tree):
-            is_event = is_about_event and child.data == "call" and number >= (tree.data == "rewards")
+            is_event = tree.data in ("event", "within") and child.data == "call"
             yield from _tokens(child, "event" if is_event else "")
         elif child.type in ("NAME", "TITLE"):
             yield child, _of_name(tree, child, names, event)
@@ -168,6 +167,12 @@ contains i is item size 2 at 5 -4 or -5 +far or +side 0 count 2
 contains w is walker along 0 0 to 10 0 or 0 5 to 10 5 from anywhere
 contains w is walker within ring when far > 1/2
 contains w is walker within -5 -4 to 5 0 speed low
+rewards 5 on delivery of a.key to home within 5 s of reach of button by foe when x > 2
+ends on 3 collision within soon of visit of patch size 4
+counts success within 2.5 s of its end
+opens within on reach of within within 3 ticks of leave of within
+teaches A on B until 3 reach of ball within 2 s of collision for at most 9 generations
+teaches A on B for 9 generations patience 2 generations needs 5 reach of ball within low of leave of b
 draws side from -14 14
 draws far from 2 to low
 teaches A on B for few from C population 3
@@ -182,6 +187,7 @@ stop on visit of patch size 4
 stop when holding > 0.5 and Avoid influences left_wheel above 70%
 stop when walls.A+B influences Go below limit or -(a - b) * c < least of a 1 (1 - c)
 stop when a.b >= 1/2 and Go influences walls.mood above 5 %
+stop on 2 delivery of red within 9 ticks of collision
 stop in tick 812
 stop in tick late"""
 

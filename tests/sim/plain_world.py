@@ -47,7 +47,7 @@ class PlainWorld:
         self.x, self.y, self.angle = (float(v) for v in run.begin)
         self.held, self.t, self.touched = -1, 0, False
         self.reached, self.delivered, self.changed = set(), set(), set()
-        self.arrivals = {}
+        self.arrivals, self.latest = {}, {}
         self.cell = next((s.kind for s in graph.sensors if isinstance(s.kind, Battery)), Battery())
         self.charge = self.cell.start
         self.trail = deque([(self.x, self.y)] * TRAIL, TRAIL)
@@ -309,7 +309,13 @@ class PlainWorld:
                     found.append(int(self.charge == 0))
                 case Success():
                     found.append(0)  # `ends` knows
-        return found
+        self.latest |= {event: self.t for event, times in zip(self.task.events, found, strict=True) if times}
+        return [times * self.is_soon(event) for event, times in zip(self.task.events, found, strict=True)]
+
+    def is_soon(self, event):
+        """Whether the other event that one has to come soon after, if any, happened in this tick or not long ago."""
+        within = event.within
+        return within is None or self.t - self.latest.get(within.of, -math.inf) <= within.ticks
 
     def present(self, event):
         """Which things, by their rows, are at any of those that an event is about; −1 is the robot."""
@@ -422,7 +428,7 @@ class PlainWorld:
                 self.open(end.opens)
             elif met:
                 for i, event in enumerate(self.task.events):
-                    happened[i] += int(end.succeeds and isinstance(event, Success))
+                    happened[i] += int(end.succeeds and isinstance(event, Success) and self.is_soon(event))
                 return number
         return -1
 

@@ -288,3 +288,48 @@ def test_what_has_been_run_is_told_on_the_way() -> None:
     task = "task Test in plain\n  contains object is item\n  lasts 2500 ticks\n"
     rollout(task).score(np.zeros((1, 0), np.float32), range(8), told.append)
     assert told == pytest.approx([3.2, 3.2, 1.6])
+
+
+def test_an_event_soon_after_another() -> None:
+    """It counts in the tick of the other and in so many ticks after that, and no later; each time anew."""
+    task = """
+task Test in arena size 60
+  contains object is item size 1 reached moves
+  contains home is zone size 12 reached moves
+  lasts 4000 ticks
+  counts leave of home
+  counts reach of object
+"""
+    run = [m.events for m in moments(task)]
+    left, reached = (np.flatnonzero([events[i] for events in run]) for i in (0, 1))
+    gaps = sorted({int(tick - left[left <= tick][-1]) for tick in reached if (left <= tick).any()})
+    assert len(gaps) > 3
+    for ticks in gaps[1:-1]:
+        for within in (ticks, ticks - 1):
+            soon = f"{task}  counts reach of object within {within} ticks of leave of home\n"
+            came = [tick for tick in reached if any(tick - within <= other <= tick for other in left)]
+            assert np.flatnonzero([m.events[2] for m in moments(soon)]).tolist() == came
+            assert 0 < len(came) < len(reached)
+    counts = [sum(m.events for m in moments(soon, seed=seed)).tolist() for seed in range(8)]
+    assert score(soon).by_event[0].tolist() == counts
+    assert len({each[2] for each in counts}) > 1
+
+
+def test_a_success_soon_after_an_event() -> None:
+    task = """
+task Test in arena size 60
+  contains object is item size 1 reached moves
+  contains home is zone size 12 reached moves
+  lasts 6000 ticks
+  succeeds on 8 reach of object
+  rewards 7 on success within 1500 ticks of leave of home
+  counts leave of home
+"""
+    paid = []
+    for seed in range(16):
+        run = moments(task, seed=seed)
+        left = [m.tick for m in run if m.events[2]]  # behind the end's event, and the success that is paid
+        paid.append(run[-1].lines[0] == 7)
+        assert paid[-1] == any(run[-1].tick - 1500 <= tick for tick in left)
+        assert run[-1].events[0] == 1
+    assert 0 < sum(paid) < len(paid)

@@ -11,7 +11,7 @@ from mindrun.graph.graph import Actuator, End, Failure, Graph, Lesson, Program, 
 from mindrun.graph.weights import genes
 from mindrun.kinds.actuators.actuator import Gripper, Lamp, Motor, Servo, Steering, Thruster, Wheel
 from mindrun.kinds.bodies.body import Box, Car, Disc, Holonomic
-from mindrun.kinds.events.event import Collision, Delivery, EventKind, Exhaustion, Leave, Reach, Success, Visit
+from mindrun.kinds.events.event import Collision, Delivery, EventKind, Exhaustion, Leave, Reach, Success, Visit, Within
 from mindrun.kinds.learners import Learner
 from mindrun.kinds.measures.measure import Advance, Apart, CommandChange, Forward, MeasureKind, Progress, Retreat
 from mindrun.kinds.registry import arguments, kinds
@@ -42,6 +42,7 @@ DRAWS = st.sampled_from([
 SPEEDS, TURNINGS = st.sampled_from([0.5, 3.0, 20.0, 300.0]), st.sampled_from([0.0, 1.5, 10.0])
 NOTICED = st.sampled_from([FARTHEST_UNITS, FARTHEST_UNITS, 0.5, 6.0])  # from how far away a walker seeks or flees
 MAZES = [("#..#", "....", "##.."), ("#.#", "...", "###", "..#")]
+SOON = st.sampled_from([1, 1, 3, 12])  # ticks within which an event comes after another
 NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
 OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])
 DENSITY, FRICTION, DAMPING = st.sampled_from([0.1, 0.5]), st.sampled_from([0.0, 0.5, 1.0]), st.sampled_from([0.0, 5.0])
@@ -344,7 +345,10 @@ def _events(draw: st.DrawFn, scene: SceneKind, things: tuple[Thing, ...]) -> tup
     if isinstance(scene, Arena):
         events += [Visit("patch", 2.0), Visit("patch", 7.0)]
     some = draw(st.lists(st.sampled_from(events), unique=True, max_size=4))
-    return (*some, *(draw(st.lists(st.sampled_from(crossing), unique=True, max_size=2)) if crossing else ()))
+    some += draw(st.lists(st.sampled_from(crossing), unique=True, max_size=2)) if crossing else []
+    pairs = [(event, other) for event, other in permutations(some, 2) if not other.is_of_success]
+    soon = draw(st.lists(st.tuples(st.sampled_from(pairs), SOON), max_size=2)) if pairs else []
+    return tuple(dict.fromkeys([*some, *(replace(each, within=Within(n, other)) for (each, other), n in soon)]))
 
 
 @st.composite

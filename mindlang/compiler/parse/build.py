@@ -21,7 +21,7 @@ _NUMBER = re.compile(r"([+-]?)[ \t]*([0-9./]+)")
 _FORMS: Mapping[str, type[Struct]] = {
     "master": syntax.Master, "tick": syntax.Tick, "mind": syntax.Version, "unit": syntax.Unit, "number": syntax.Number,
     "reads": syntax.Reads, "gate": syntax.Gate, "chooses": syntax.Chooses, "stays": syntax.Stays,
-    "uses": syntax.Uses,
+    "uses": syntax.Uses, "within": syntax.Within,
     "requires": syntax.Requires, "maintains": syntax.Maintains, "achieves": syntax.Achieves,
     "contains": syntax.Contains, "varies": syntax.Varies, "fails": syntax.Fails, "lasts": syntax.Lasts,
     "counts": syntax.Counts, "transmission": syntax.Transmits,
@@ -81,7 +81,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         return Name(str(token), self._span(token))
 
     TITLE = LETTER = PART = WHOLE = TASK = COMPUTED = NUMBERED = SEVERAL = ORDERED = BROKEN = NAME
-    GYMNASIUM = ENVIRONMENT = FROM = TO = BY = ON = FACING = AT = ALONG = NAME
+    GYMNASIUM = ENVIRONMENT = FROM = TO = BY = ON = OF = FACING = AT = ALONG = WITHIN = NAME
 
     def COMPARE(self, token: Token) -> str:  # noqa: N802
         """A sign between two values."""
@@ -191,6 +191,10 @@ class Builder(Transformer_NonRecursive[Token, Any]):
 
     def call(self, meta: Any, parts: list[Any]) -> Phrase:
         return Phrase(parts[0], tuple(parts[1:]), self._span(meta))
+
+    def event(self, meta: Any, parts: list[Any]) -> Phrase:
+        phrase, within = (*parts, None)[:2]
+        return Phrase(phrase.kind, phrase.arguments, self._span(meta), within)
 
     def numbers(self, meta: Any, parts: list[Any]) -> Numbers | syntax.Sums:
         """Amounts, or where anything is computed sums: where only numbers stand a sign never adds, as `10 - 20`."""

@@ -24,6 +24,7 @@ class Mistake:
 
 
 _SENDS = r"(?:drives|influences|sensor\s+\w+\s+is\s+computed)"  # what takes a condition and an otherwise
+_EVENTS = r"^\s*(?:rewards|ends|succeeds|opens|counts|teaches|stop)\b.*"  # of what happens
 _WHEN = r"\b(?:when|requires|maintains|achieves)\b"  # before a condition
 _PART, _WHOLE, _VERB, _NOUN = ("|".join(words) for words in (PARTS, WHOLES, VERBS, NOUNS))
 _NAMED = f"{_NOUN}|reads|drives|influences|contains|teaches|master"  # what a name stands after
@@ -290,6 +291,14 @@ MISTAKES = (
     Mistake("logic", rf"{_WHEN}.*?\b(?P<here>and|or)\s+[^<>]*$",
         "On each side of {here} stands a comparison.", "Write for example when holding > 0.5 {here} charge > 0.5.",
         "rewards 1 per tick when holding > 0.5 and charge"),
+    Mistake("within", rf"{_EVENTS}\s(?:when|and|or)\s+(?P<here>within\s+\S.*)$", "A condition has no events.",
+        "Write it behind an event: rewards 5 on reach of X {here}.", "rewards 5 on collision when within 5 s of x"),
+    Mistake("within", rf"{_EVENTS}\swithin\s.*\sof\s.*\s(?P<here>within\s.*)$", "An event comes soon after one other.",
+        "Leave {here} out, or write a line of its own for it.",
+        "counts collision within 5 s of reach of x within 3 s of leave of y"),
+    Mistake("within",
+        rf"{_EVENTS}\s(?P<here>within\s+\d[\d./]*(?![\d./]|\s*(?:s\b|ticks\b)?\s*of\b)(?:\s*(?:s|ticks)\b)?)",
+        "After the time comes of, and another event.", "Write {here} of reach of X.", "counts collision within 5 s"),
     Mistake("comparison", r"(?P<here>==|!=|=<|=>|<>|≠)", "{here} is not a comparison of the language.",
         "Compare with < <= > or >=; readings are real numbers, which are hardly ever equal.",
         "rewards 1 per tick when holding == 1"),

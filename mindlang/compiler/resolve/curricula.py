@@ -15,7 +15,7 @@ from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.families import said
 from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.names import Names
-from mindlang.compiler.resolve.kinds import Scope, a_name, make_kind, once, overrides
+from mindlang.compiler.resolve.kinds import Scope, a_name, make_event, make_kind, once, overrides
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Amount, Argument, Name, Needs, Phrase, Teaches, of_form
@@ -211,7 +211,7 @@ class _LessonContext:
             message = f"{argument.key.text} is no part of an event, and stands elsewhere in a lesson."
             self.findings.error("order", argument.span, message, f"Write {said(argument)} {place}.")
             return None
-        event = make_kind("event", written, Scope(self.names, None), self.findings)
+        event = make_event(written, Scope(self.names, None), self.findings)
         times = convert(above, OFTEN, self.findings)
         if event and self._lacks(task, lambda its: event in its.events):
             hint = f"Add a line to it: counts {said(written)}."

@@ -1,10 +1,11 @@
 """Phrases → kinds: the kind found in the registry, its arguments checked and converted."""
 
 from collections.abc import Iterable, Mapping, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from mindrun.kinds.events.event import WITHIN_TICKS, Within
 from mindrun.kinds.registry import Argument as Parameter
 from mindrun.kinds.registry import arguments, find_kind, kinds
 from mindrun.kinds.things.about import OR, AboutThing
@@ -12,11 +13,13 @@ from mindrun.kinds.things.thing import ROBOT, WITHIN
 from mindrun.numbers.quantity import COORDINATE, SLOT, THING, Quantity, Reference
 
 from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed
+from mindlang.compiler.families import said
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.maps import text_lines
-from mindlang.compiler.resolve.quantities import SHAPES, place_list
+from mindlang.compiler.resolve.quantities import SHAPES, convert, place_list
 from mindlang.compiler.syntax import VERBS, AnyName, Argument, Name, Phrase
 
+LEAST_TICKS = 0.75  # of a time in seconds, which becomes whole ticks
 USER_NOUNS = {"content": "thing", "task": "scene"}  # nouns of the registry in the user's words
 MISSING_HINTS = {
     "neutral": "It is what the actuator is sent when nothing influences it and whenever something fails: "
@@ -61,6 +64,28 @@ def make_kind(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> An
     # a number that is declared wrongly is reported there, and has no value
     has_all = not missing and all(value is not None for value in values.values())
     return cls(**values) if has_all and len(findings.diagnostics) == before else None
+
+
+def make_event(written: Phrase, scope: Scope, findings: Findings) -> Any:
+    """The event of a phrase, or None after reporting what is wrong with it."""
+    event = make_kind("event", written, scope, findings)
+    if written.within is None:
+        return event
+    amount, phrase = written.within.amount, written.within.of
+    other, is_whole = make_kind("event", phrase, scope, findings), amount.unit == "ticks"
+    units = {"s": 1 / (amount.tick_seconds or 1.0), "ticks": 1.0}
+    time = Quantity("a time", units, 1.0 if is_whole else LEAST_TICKS, WITHIN_TICKS.high, is_whole)
+    ticks = convert(amount, time, findings)
+    within, said_ = f"within {amount.span.text}", said(phrase)
+    if other and other == event:
+        hint = f"Name another event, or leave {within} of {said_} out."
+        findings.error("within", phrase.span, f"{said_} is always {within} of itself.", hint)
+    elif other and other.is_of_success:
+        hint = f"Turn it round: success {within} of what came before."
+        findings.error("within", phrase.span, "Nothing comes after a success, which ends the run.", hint)
+    elif event and other and ticks:
+        return replace(event, within=Within(round(ticks), other))
+    return None
 
 
 def _known_kinds(noun: str, name: str, scope: Scope) -> str:

@@ -104,7 +104,7 @@ def _judged(task: model.Task) -> Iterator[tuple[Any, Span]]:
     events: list[tuple[Any, Phrase | None]] = [(end.event, end.fact.event) for end in task.ends]
     events += [(reward.on, reward.fact.on) for reward in task.rewards]
     events += zip(task.counts, (fact.event for fact in of_form(task.facts, Counts)), strict=True)
-    yield from ((event, phrase.span) for event, phrase in events if event and phrase)
+    yield from ((each, phrase.span) for event, phrase in events if event and phrase for each in event.single)
     computed = *(end.when for end in task.ends), *((reward.amount, reward.when) for reward in task.rewards)
     measured = (term for expression in expressions_in(*computed) for term in expression.found("measure"))
     yield from ((term.operand, term.span) for term in measured)

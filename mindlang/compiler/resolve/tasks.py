@@ -12,7 +12,7 @@ from mindlang.compiler import model
 from mindlang.compiler.beginning import first_tick_hint, task_beginning
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
 from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
-from mindlang.compiler.resolve.kinds import make_kind
+from mindlang.compiler.resolve.kinds import make_event
 from mindlang.compiler.resolve.parts import refuse_facts, said_once
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.resolve.worlds import ResolvedWorld, RobotFacts, resolve_world
@@ -84,9 +84,11 @@ def _ticks(declaration: Declaration, tick: float, findings: Findings) -> int:
 
 def event_in(written: Phrase, world: ResolvedWorld, findings: Findings) -> Any:
     """The event of a phrase; one that can never happen in the world is reported."""
-    event = make_kind("event", written, world.scope, findings)
-    if event and (found := event.missing(world)):
-        findings.error("impossible-event", written.span, found.reason, found.hint)
+    event = make_event(written, world.scope, findings)
+    said = (written, *((written.within.of,) if written.within else ()))
+    for single, phrase in zip(event.single, said, strict=True) if event else ():
+        if found := single.missing(world):
+            findings.error("impossible-event", phrase.span, found.reason, found.hint)
     return event
 
 

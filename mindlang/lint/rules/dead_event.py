@@ -27,7 +27,7 @@ def check(study: Study) -> Found:
         world = study.worlds[task.name]
         counted = zip(of_form(task.facts, Counts), task.counts, strict=True)
         for fact, event in (*((end.fact, end.event) for end in task.ends), *counted):
-            if fact.event and event and (why := event.prevented(world)):
+            if fact.event and event and (why := event.hindrance(world)):
                 yield Finding(fact.event.span, f"This never happens: {why[0]}.", why[1], fix=removal(fact))
         for end in task.ends:
             if end.when and (never := why_never(end.when, world.range_in(end))):

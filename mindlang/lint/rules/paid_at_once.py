@@ -84,7 +84,8 @@ class _FirstTick:
 
     def _often_drawn(self, event: EventKind) -> str:
         """The share of runs in which the robot's place, which is drawn, is in what is rewarded, and no goal."""
-        if self.begun.at is not None or event.outcome != "reached" or event.thing in self.study.goals(self.task):
+        is_placed = self.begun.at is not None or event.thing in self.study.goals(self.task)
+        if is_placed or event.within or event.outcome != "reached":
             return ""
         radius = self.study.mind.body.kind.radius
         width, depth = (max(side - 6 * radius, radius) for side in self.task.scene.sides)

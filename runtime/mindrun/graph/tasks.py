@@ -61,7 +61,7 @@ def goals(graph: Graph, task: Task) -> frozenset[str]:
     or rewarded is no goal: what measures changes no world.
     """
     gone = {thing.name for thing in task.things if thing.kind.outcomes.get("reached", STAYS) != STAYS}
-    events = (task.events[end.event] for end in task.ends if end.event is not None)
+    events = (event for end in task.ends if end.event is not None for event in task.events[end.event].single)
     reached = {event.thing for event in events if event.outcome == "reached"}
     read = {row for end in task.ends if end.when is not None for row in leaves(end.when, "reading")}
     return frozenset(gone | reached | {thing for sensor in with_sources(graph, read) for thing in sensor.kind.things})

@@ -175,6 +175,9 @@ def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
     ending = [end.event for end in task.ends if end.event is not None]
     if not all(event in events for event in (*ending, *task.counts, *rewarded)):
         yield "names an event that is not there"
+    others = [event.within.of for event in task.events if event.within]
+    if any(other.within or other.is_of_success or other not in task.events for other in others):
+        yield "has an event that comes after one that is not there"
     yield from _end_flaws(task, width, actuators)
     for reward in task.rewards:
         known = readings, len(task.measures), reward.each is not None, actuators, len(task.draws)
@@ -218,7 +221,7 @@ def _draw_flaws(task: Task) -> Iterator[str]:
             yield "has a thing of which nobody knows whether it is there"
         along = getattr(thing.kind, "along", ())
         coordinates = sum(map(len, along or thing.kind.at))
-        is_single = (bool(along) or thing.kind.copies == 1) and len(thing.by) == coordinates
+        is_single = (bool(along) or thing.kind.copies <= 1) and len(thing.by) == coordinates
         if thing.by and not (is_single and all(_is_coordinate(program, task.draws) for program in thing.by)):
             yield "has a thing of which nobody knows where it is"
         drawn = thing.many > 0 and next(iter(task.draws[thing.many - 1 :]), None)

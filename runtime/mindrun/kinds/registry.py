@@ -34,9 +34,12 @@ SHAPES: Mapping[Any, Shape] = {
 }  # fmt: skip
 
 
-def left_out(default: Any) -> Any:
-    """A dataclass's field that is left out of plain data where it has this value: what came later than the files."""
-    return field(default=default, metadata={"left out": True})
+def left_out(default: Any, is_argument: bool = True) -> Any:
+    """A dataclass's field that is left out of plain data where it has this value: what came later than the files.
+
+    One of a kind that is no argument of it is said otherwise.
+    """
+    return field(default=default, metadata={"left out": True, "argument": is_argument})
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,6 +125,7 @@ def arguments(cls: type[Any]) -> tuple[Argument, ...]:
         _arguments[cls] = tuple(
             Argument(f.name.removesuffix("_"), f.name, *_type(hints[f.name]), default=f.default)
             for f in sorted(fields(cls), key=lambda field: field.kw_only is True)
+            if f.metadata.get("argument", True)
         )
     return _arguments[cls]
 
@@ -140,7 +144,7 @@ def phrase(kind: object) -> str:
     """A kind with the arguments that differ from their defaults, much as it is written."""
     said = ((argument, getattr(kind, argument.field)) for argument in arguments(type(kind)))
     words = [f"{argument.key} {value}" for argument, value in said if value != argument.default]
-    return " ".join([names()[type(kind)], *words])
+    return " ".join([names()[type(kind)], *words, *getattr(kind, "more_words", ())])
 
 
 def _type(hint: Any) -> tuple[Quantity | Reference, Shape]:

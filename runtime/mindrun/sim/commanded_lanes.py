@@ -285,7 +285,8 @@ def _of_lanes(part: Any, lanes: NDArray[np.int64], count: int) -> Any:
 def _written(event: EventKind) -> str:
     """An event as a mind writes it, without its numbers: "reach of ball"."""
     words = [f" {word} {getattr(event, word)}" for word in ("of", "to") if getattr(event, word, "")]
-    return names()[type(event)] + "".join(words)
+    soon = f" within {event.within.ticks} ticks of {_written(event.within.of)}" if event.within else ""
+    return names()[type(event)] + "".join(words) + soon
 
 
 def _check(noun: str, name: str, known: Sequence[str]) -> None:

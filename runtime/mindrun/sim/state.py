@@ -165,6 +165,7 @@ class JudgeState(Block):
     arrived: Annotated[Array, rows("arrivals", kind=U1)]  # as `delivered`, of zones or things of one name
     lines: Annotated[Array, rows("rewards")]  # the sum of each reward line
     counts: Annotated[Array, rows("events", kind=I8)]  # how often each happened in this run
+    left: Annotated[Array, rows("windows", kind=I8)]  # in how many ticks, this one too, an event may come after another
     # for this tick
     measures: Annotated[Array, rows("measures")]
     apart: Annotated[Array, rows("measures")]  # how far two things were from each other as the tick began
@@ -289,6 +290,7 @@ def _counts(tables: Tables, sizes: Mapping[str, int]) -> dict[str, int]:
         "sight": FIRST_RAY + n["ray_row"],
         "board": max(1, n["patches"]),
         "happened": max(1, n["events"]),
+        "windows": sum(1 for event in tables.events if event["after"] >= 0),
         "close": fixed,
         "solids": FIRST_LOOSE + n["loose"],
         "pairs": min(MOST_PAIRS + PAIRS_EACH * n["loose"], movers * (movers + fixed) + SPARE_PAIRS),

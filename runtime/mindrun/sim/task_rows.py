@@ -248,16 +248,20 @@ def event_rows(task: Task) -> tuple[Array, int, int]:
     """Rows of EVENT, how many patches there are to visit, and how many things that may come to others or leave them."""
     places = rows_by_name(task)
     rows: list[Row] = []
-    board = arrivals = 0
+    board = arrivals = windows = 0
+    numbers = {event: number for number, event in enumerate(task.events)}
     for event in task.events:
         own, code = event.row(task.scene), codes.EVENT_CODES[names()[type(event)]]
         about, into = places[event.thing], places[event.other]
         rows.append({
             "kind": code, "thing": about.start, "things": len(about), "to": into.start, "tos": len(into),
-            "patch": 1.0, "board": board, **own, "arrival": arrivals,
+            "patch": 1.0, "board": board, **own, "arrival": arrivals, "left": windows,
+            "after": numbers[event.within.of] if event.within else -1,
+            "window": event.within.ticks + 1 if event.within else 0,
         })  # fmt: skip
         board += int(own.get("columns", 0) * own.get("rows", 0))
         arrivals += event.remembered(len(about), len(into))
+        windows += event.within is not None
     return records(rows, codes.EVENT), board, arrivals
 
 

@@ -1,16 +1,18 @@
 """Events, and what the rest of the program asks of each: it knows none by name."""
 
 from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
 from math import ceil
 from typing import Annotated, NamedTuple, Protocol
 
-from mindrun.kinds.registry import base, kind, left_out
+from mindrun.kinds.registry import base, kind, left_out, phrase
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.about import AboutThing
 from mindrun.kinds.things.thing import ThingKind, WorldFacts
 from mindrun.numbers.quantity import THING, Quantity, Reference
 
 Row = Mapping[str, float]  # columns of the lanes' table of events
+WITHIN_TICKS = Quantity("a number of ticks", {"ticks": 1.0}, low=1, high=10_000_000, whole=True)
 
 
 class Hindrance(NamedTuple):
@@ -33,11 +35,26 @@ class TaskWorld(Protocol):
     def can_succeed(self) -> bool: ...  # whether a line says when a run is a success
 
 
-@base("event")
-class EventKind(AboutThing):
-    """An event that can happen in any world; a kind says what is different about it."""
+@dataclass(frozen=True, slots=True)
+class Within:
+    """A time that is open from the tick of another event on, and for so many `ticks` after it."""
 
-    __slots__ = ()
+    ticks: Annotated[int, WITHIN_TICKS]
+    of: "EventKind"
+
+    def __str__(self) -> str:
+        return f"within {self.ticks} ticks of {phrase(self.of)}"
+
+
+@base("event")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EventKind(AboutThing):
+    """An event that can happen in any world; a kind says what is different about it.
+
+    With `within 5 s of` and another event behind it, it happens only soon after that, or in the same tick.
+    """
+
+    within: Within | None = left_out(None, is_argument=False)
 
     outcome = ""  # the argument by which a thing says what becomes of it when the event happens
     needs_walls = False  # whether it can be computed in an arena alone
@@ -45,9 +62,23 @@ class EventKind(AboutThing):
     is_of_success = False  # whether an end of the task makes it happen
     is_of_battery = False  # whether it depends on the battery, of which it names no sensor
 
+    @property
+    def single(self) -> tuple["EventKind", ...]:
+        """The events by themselves of which it is made: itself, or without its time, and the other."""
+        return (replace(self, within=None), self.within.of) if self.within else (self,)
+
+    @property
+    def more_words(self) -> tuple[str, ...]:
+        """The words behind its arguments."""
+        return (str(self.within),) if self.within else ()
+
     def missing(self, task: TaskWorld) -> Hindrance | None:
         """The hindrance where its task lacks something without which it can never happen, else None."""
         return None
+
+    def hindrance(self, world: WorldFacts) -> Hindrance | None:
+        """The first hindrance of the events of which it is made, else None."""
+        return next(filter(None, (each.prevented(world) for each in self.single)), None)
 
     def prevented(self, world: WorldFacts) -> Hindrance | None:
         """The hindrance where it can never happen although its task lacks nothing, else None."""

@@ -25,6 +25,9 @@ def judge(tables: Tables, state: State, lanes: int, clock: int, interrupt: int) 
         out = judged.events[i]
         judged.happened[i] = notice(tables, state, i, out, lanes)
     for i in range(len(tables.events)):
+        if tables.events[i].after >= 0:
+            judged.happened[i] = keep_soon(tables, state, i, lanes)
+    for i in range(len(tables.events)):
         for lane in range(lanes if judged.happened[i] > 0 else 0):
             judged.counts[i, lane] += int(judged.events[i, lane])
     for i in range(len(tables.ends)):
@@ -37,6 +40,21 @@ def judge(tables: Tables, state: State, lanes: int, clock: int, interrupt: int) 
     for lane in range(lanes):
         world.tick[lane] += 1
         world.trail[oldest + X, lane], world.trail[oldest + Y, lane] = world.begun_at[X, lane], world.begun_at[Y, lane]
+
+
+@unit_where(lambda tables: (tables.events["after"] >= 0).any())
+def keep_soon(tables: Tables, state: State, i: int, lanes: int) -> int:
+    """Keep of event i what happens soon after the other that it names, in this tick or after one before.
+
+    Return the number of lanes in which it does.
+    """
+    event, judged, count = tables.events[i], state.judge, 0
+    for lane in range(lanes):
+        left = max(0, judged.left[event.left, lane] - 1)
+        judged.left[event.left, lane] = left = event.window if judged.events[event.after, lane] > 0.0 else left
+        judged.events[i, lane] = judged.events[i, lane] if left > 0 else 0.0
+        count += 1 if judged.events[i, lane] > 0.0 else 0
+    return count
 
 
 @unit_where(lambda tables: tables.world[0]["battery"] > 0)
@@ -171,9 +189,10 @@ def open_boxes(tables: Tables, state: State, i: int, lanes: int) -> None:
 def mark_success(tables, judged, lanes):
     """Let the event of a success happen where a run has succeeded in this tick."""
     for i in range(len(tables.events)):
-        if tables.events[i].kind == codes.SUCCESS:
+        event = tables.events[i]
+        if event.kind == codes.SUCCESS:
             for lane in range(lanes):
-                if judged.paid[lane] > 0.0:
+                if judged.paid[lane] > 0.0 and (event.after < 0 or judged.left[event.left, lane] > 0):
                     judged.events[i, lane] = 1.0
                     judged.counts[i, lane] += 1
                     judged.happened[i] += 1

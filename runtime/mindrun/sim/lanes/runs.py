@@ -115,7 +115,7 @@ def reset(tables, state, lane):
     for i in range(len(tables.memories)):
         mind.readings[tables.memories[i].row, lane] = tables.memories[i].start
     judge.lines[:, lane], judge.left_changes[:, lane], judge.right_changes[:, lane] = 0.0, 0.0, 0.0
-    judge.counts[:, lane], judge.visited[lane], judge.arrived[:, lane] = 0, 0, 0
+    judge.counts[:, lane], judge.visited[lane], judge.arrived[:, lane], judge.left[:, lane] = 0, 0, 0, 0
     for i in range(len(tables.events)):
         if tables.events[i].kind == VISIT:  # the patch that the robot starts in
             patch = patch_of(world.body, tables.world[0], tables.events[i], lane)
@@ -150,7 +150,7 @@ def move(state, source, target):
     copy_lane(world.swivel, source, target)
     for rows in (world.reached, world.delivered, judge.arrived):
         copy_lane(rows, source, target)
-    for rows in (world.still, world.goal, judge.counts):
+    for rows in (world.still, world.goal, judge.counts, judge.left):
         copy_lane(rows, source, target)
     for rows in (mind.readings, mind.before, mind.measured, mind.rings, mind.genome, mind.recurrent, mind.late):
         copy_lane(rows, source, target)
