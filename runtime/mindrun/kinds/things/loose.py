@@ -71,7 +71,7 @@ class Loose(ThingKind, Aiming):
     thrust: Annotated[float, FORCE] = left_out(DEFAULT_THRUST)
     range: Annotated[float, DISTANCE] = left_out(FARTHEST_UNITS)
 
-    varying = _Varying()  # type: ignore[assignment]
+    varying = _Varying()
     is_solid = True
     is_loose = True
     can_be_delivered = True
