@@ -130,6 +130,10 @@ THINGS = [
     [
         *("crate is box size 2", "crate is box at 12.5 -2.5 or 12.5 2.5", "crate is box within nest"),
         *("crate is ball", "crate is ball at -7.5 -12.5 or -2.5 -12.5", "crate is ball within 9 -9 to 14 9"),
+        *("crate is box size 2 seeks robot thrust 20", "crate is ball size 2 seeks robot speed 3"),
+        *("crate is box size 2 flees robot range 9", "crate is ball size 2 flees robot range 9 thrust 5"),
+        *("crate is box size 1 seeks crate range 20", "crate is ball size 1 flees crate"),
+        *("crate is box size 1 flees crate", "crate is ball size 1 seeks crate range 20"),
     ],
     [
         *("cat is walker size 2", "cat is walker at 2.5 2.5 or 7.5 2.5", "cat is walker within nest"),
@@ -313,7 +317,9 @@ def _more(rng: Random, noun: str, line: str) -> str:
         is_placed = not {"at", "along", "grid", "within"}.isdisjoint(words)
         words += ["away", "count", "size"] * is_placed  # a place has to be free
         words += ["grid", "at", "along", "or", "within", "from"]
+        is_pushed = kind in ("box", "ball") and {"seeks", "flees"}.isdisjoint(words)
         words += ["seeks", "flees", "range"]  # of what there is
+        words += ["speed", "thrust"] * is_pushed
     words += ["size"] * (noun == "body")  # and there is as much room for the robot
     words += ["neutral"] * (kind == "order")  # which has to be one of them
     words += ["on"]  # of which there are servos

@@ -21,7 +21,7 @@ REACHED = {
     "soccer": ("Score", ["success", "mean"], 0.9),
     "sort": ("Sort", ["success", "mean"], 0.85),
     "stations": ("Tour", ["success", "mean"], 0.9),
-    "sumo": ("Push", ["success", "mean"], 0.85),
+    "sumo": ("Push", ["success", "mean"], 0.7),
     "tmaze": ("Run", ["success", "mean"], 0.95),
 }
 PICTURE_BYTES = 125_000

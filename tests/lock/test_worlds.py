@@ -430,6 +430,7 @@ TEXTS = [
     ("influences Sway", "influences Sway over left_wheel", "Top has changed: sends Sway over left_wheel is new"),
     ("walker size 2", "walker size 2 seeks robot", "taught with cat without seeks, now seeks robot"),
     ("walker size 2", "walker size 2 flees ball range 5", None),
+    ("crate is box size 2", "crate is box size 2 seeks cat", "taught with crate without seeks, now seeks cat"),
     ("mast at 2 * moving", "mast at 2 * moving when moving > 0.1 otherwise 0.5", None),
     ("starts at 20 -20", "starts at 20 -21", None),
     ("facing 90 deg", "facing 91 deg", None),

@@ -123,6 +123,7 @@ sensor unsafe is broken a.Go+Dock
 influences Stop over throttle and a.b at 1 when x > 2 cuts below 5%
 influences Stop over throttle
 contains cat is walker seeks robot range far
+contains foe is box flees robot thrust 1/2
 counts collision
 use "a.mind" as a.b
 mind 1

@@ -117,6 +117,8 @@ CASES = [  # where the line is put, the line with | for the cursor, what must be
     (BELOW_AVOID, "  influences Fetch at 1 cuts below 5 |", "%", "below"),
     (BELOW_WORK, "  |", "starts varies fails succeeds", "reads"),
     (BELOW_WORK, "  contains cat is walker seeks |", "robot parcel", "left_wheel"),
+    (BELOW_WORK, "  contains rival is box flees |", "robot parcel", "left_wheel"),
+    (BELOW_WORK, "  contains rival is box |", "seeks thrust", "along"),
     (BELOW_WORK, "  ends |", "when", ""),
     (BELOW_WORK, "  succeeds |", "on when", ""),
     (BELOW_WORK, "  succeeds on |", "collision delivery", "forward"),

@@ -3,9 +3,10 @@
 import math
 
 import pymunk
-from mindrun.kinds.things.thing import Ball, LooseBox
+from mindrun.kinds.things.loose import Ball, LooseBox
 
 from tests.sim.plain_strides import Mover
+from tests.sim.plain_walkers import way_to
 
 REST = 1e-3  # units and radians per second, below which what is loose stands still
 
@@ -18,8 +19,10 @@ def corners(half):
 class PlainLoose:
     """The loose things of a world, by their place among its things; what has vanished is not there, but far away."""
 
-    def __init__(self, space, kinds, places, dt):
-        self.space, self.kinds, self.dt, self.there, self.gone = space, kinds, dt, {}, []
+    def __init__(self, space, of, dt):
+        kinds, places = [thing.kind for thing in of.things], of.places
+        self.space, self.of, self.kinds, self.dt, self.there, self.gone = space, of, kinds, dt, {}, []
+        self.forces = {}
         self.are_any = any(isinstance(kind, LooseBox | Ball) for kind in kinds)
         for i, kind in enumerate(kinds):
             if isinstance(kind, LooseBox | Ball):
@@ -56,6 +59,25 @@ class PlainLoose:
             rests = max(abs(x * slower), abs(y * slower), abs(spin)) < REST
             body.velocity = (0.0, 0.0) if rests else (x * slower, y * slower)
             body.angular_velocity = 0.0 if rests else spin
+
+    def drive(self):
+        """The force of each that drives itself: it would take it where it wants to be when it has been damped again."""
+        self.forces = {}
+        for i in (i for i in self.there if self.kinds[i].thing):
+            body, kind = self.there[i][0], self.kinds[i]
+            (x, y), (vx, vy) = body.position, body.velocity
+            if way := way_to(self.of, i, (x + vx * self.dt, y + vy * self.dt)):
+                slower = 1 / (1 + self.dt * kind.damping)
+                along = (way[0] / self.dt / slower - vx) * body.mass / self.dt
+                across = (way[1] / self.dt / slower - vy) * body.mass / self.dt
+                wanted = math.sqrt(along * along + across * across)
+                share = kind.thrust / wanted if wanted > kind.thrust else 1.0
+                self.forces[i] = along * share, across * share
+
+    def push(self, share):
+        """Let a share of these forces act in the next step."""
+        for i, (x, y) in self.forces.items():
+            self.there[i][0].force = x * share, y * share
 
     def rest(self):
         """What hardly moves stands."""

@@ -58,18 +58,11 @@ class PlainWalkers:
 
     def chases(self, i, kind, step):
         """Whether it went straight towards the nearest that it seeks, or away from what it flees."""
-        place, name = self.of.places[i], kind.seeks or kind.flees
-        others = [self.of.places[j][:2] for j, thing in enumerate(self.of.things) if thing.name == name and j != i]
-        others = [(self.of.x, self.of.y)] if name == "robot" else [each for each in others if not math.isnan(each[0])]
-        ways = [(x - place[0], y - place[1]) for x, y in others]
-        ways = [(math.sqrt(dx * dx + dy * dy), dx, dy) for dx, dy in ways]
-        far, dx, dy = min(ways, key=lambda way: way[0], default=(math.inf, 0.0, 0.0))
-        if far > kind.range:
-            return False
-        if far == 0:
-            return bool(kind.seeks)
-        share = min(step / far, 1.0) if kind.seeks else -step / far
-        to = place[0] + dx * share, place[1] + dy * share
+        place = self.of.places[i]
+        way = way_to(self.of, i, place[:2])
+        if not way or way == (0.0, 0.0):
+            return bool(way)
+        to = place[0] + way[0], place[1] + way[1]
         if not self.may_step(place[:2], to, place[2] / 2, step):
             return False
         place[:2] = to
@@ -107,3 +100,17 @@ class PlainWalkers:
             else:
                 assert abs(directions[i] - self.directions[i]) <= far * (1 + 1e-9)
         self.directions = directions.copy()
+
+
+def way_to(of, i, place):
+    """The way that thing i would go in a tick from a place: to what it seeks or away from what it flees, if it can."""
+    kind, name, step = of.things[i].kind, of.things[i].kind.thing, of.things[i].kind.speed * of.graph.tick
+    others = [of.places[j][:2] for j, thing in enumerate(of.things) if thing.name == name and j != i]
+    others = [(of.x, of.y)] if name == "robot" else [each for each in others if not math.isnan(each[0])]
+    ways = [(x - place[0], y - place[1]) for x, y in others]
+    ways = [(math.sqrt(dx * dx + dy * dy), dx, dy) for dx, dy in ways]
+    far, dx, dy = min(ways, key=lambda way: way[0], default=(math.inf, 0.0, 0.0))
+    if far > kind.range or (far == 0 and kind.flees):
+        return None
+    share = 0.0 if far == 0 else min(step / far, 1.0) if kind.seeks else -step / far
+    return dx * share, dy * share

@@ -17,8 +17,9 @@ from mindrun.kinds.sensors.floor import Inside
 from mindrun.kinds.sensors.motion import Inertial
 from mindrun.kinds.sensors.nearest import Bearing
 from mindrun.kinds.sensors.rays import RangeFinder
+from mindrun.kinds.things.loose import Ball, LooseBox
 from mindrun.kinds.things.obstacle import Obstacle
-from mindrun.kinds.things.thing import Ball, Item, LooseBox, Power, Zone
+from mindrun.kinds.things.thing import Item, Power, Zone
 from mindrun.numbers.trigonometry import cosine, sine
 
 from mindlang.physics_check import ROBOT_FRICTION
@@ -495,7 +496,7 @@ class PlainBody:
             for i, thing in enumerate(of.things)
             if isinstance(thing.kind, Item)
         }
-        self.loose = PlainLoose(self.space, [thing.kind for thing in of.things], of.places, self.dt)
+        self.loose = PlainLoose(self.space, of, self.dt)
         self.touches = False
 
     def room(self):
@@ -585,6 +586,7 @@ class PlainBody:
             self.roll(turned, c, s)
         body.force, body.torque = (ahead * c - aside * s, ahead * s + aside * c), torque
         self.loose.damp()
+        self.loose.drive()
         self.stride(held, places)
         body = self.body
         return (*body.position, body.angle, *body.velocity, body.angular_velocity)
@@ -608,6 +610,7 @@ class PlainBody:
                 self.forget(movers)
             share = self.dt / seconds if is_last else 0.0
             self.body.force, self.body.torque = (force[0] * share, force[1] * share), torque * share
+            self.loose.push(share)
             watch.look()
             self.space.step(seconds)
             contacts = []

@@ -9,8 +9,9 @@ from mindrun.graph.graph import Actuator, Graph, Thing
 from mindrun.kinds.actuators.actuator import Motor, Steering, Thruster, Wheel
 from mindrun.kinds.bodies.body import BodyKind, Box, Car, Disc, Holonomic
 from mindrun.kinds.scenes.scene import Arena
+from mindrun.kinds.things.loose import Ball, LooseBox
 from mindrun.kinds.things.map import Map
-from mindrun.kinds.things.thing import Ball, Item, LooseBox
+from mindrun.kinds.things.thing import Item
 from mindrun.kinds.things.walker import Walker
 from mindrun.kinds.things.wall import Wall
 from mindrun.numbers.quantity import Span
@@ -103,6 +104,9 @@ def _things(random: Random, size: float, sides: tuple[float, float]) -> list[Thi
         kind, span = random.choice([LooseBox, Ball, Ball]), size * among(random, 0.05, 2)
         own = {"friction": random.choice([0.0, 0.5, 1.0]), "damping": random.choice([0.0, 3.0])}
         own["density"] = among(random, 0.01, 100)
+        if random.random() < 0.3:
+            speed, thrust = size * among(random, 0.1, 1000), size * size * among(random, 0.1, 1e5)
+            own |= {random.choice(["seeks", "flees"]): "robot", "speed": speed, "thrust": thrust}
         found.append(Thing(f"loose{i}", kind(size=Span(span, span), away=Span(0.0, far), **own)))
     span = size * among(random, 0.05, 1.5)
     found.append(Thing("coin", Item(size=Span(span, span), away=Span(0.0, 3 * size), count=3)))

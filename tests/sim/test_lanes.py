@@ -20,8 +20,9 @@ from mindrun.kinds.sensors.derived import Derivative
 from mindrun.kinds.sensors.nearest import Bearing
 from mindrun.kinds.sensors.rays import RangeFinder
 from mindrun.kinds.sensors.waves import Sine
+from mindrun.kinds.things.loose import LooseBox
 from mindrun.kinds.things.obstacle import Obstacle
-from mindrun.kinds.things.thing import Item, LooseBox, Power, Zone
+from mindrun.kinds.things.thing import Item, Power, Zone
 from mindrun.numbers.arithmetic import in_claw, uniform
 from mindrun.numbers.quantity import Span
 from mindrun.sim.lanes.step import CONTACT_TICKS

@@ -16,9 +16,10 @@ from mindrun.kinds.learners import Learner
 from mindrun.kinds.measures.measure import Advance, Apart, CommandChange, Forward, MeasureKind, Progress, Retreat
 from mindrun.kinds.registry import arguments, kinds
 from mindrun.kinds.scenes.scene import Arena, Plain, SceneKind
+from mindrun.kinds.things.loose import Ball, LooseBox
 from mindrun.kinds.things.map import Map
 from mindrun.kinds.things.obstacle import Obstacle
-from mindrun.kinds.things.thing import Ball, Item, LooseBox, Power, Zone
+from mindrun.kinds.things.thing import Item, Power, Zone
 from mindrun.kinds.things.walker import Begin, Walker
 from mindrun.kinds.things.wall import Wall
 from mindrun.numbers.quantity import FARTHEST_UNITS, UNSAID, Span
@@ -40,7 +41,8 @@ DRAWS = st.sampled_from([
     Draw("many", (2.0, 0.0, 3.0)),
 ])  # fmt: skip
 SPEEDS, TURNINGS = st.sampled_from([0.5, 3.0, 20.0, 300.0]), st.sampled_from([0.0, 1.5, 10.0])
-NOTICED = st.sampled_from([FARTHEST_UNITS, FARTHEST_UNITS, 0.5, 6.0])  # from how far away a walker seeks or flees
+FORCES = st.sampled_from([80.0, 80.0, 2.0, 3000.0])  # by which a loose thing drives itself
+NOTICED = st.sampled_from([FARTHEST_UNITS, FARTHEST_UNITS, 0.5, 6.0])  # from how far away something seeks or flees
 MAZES = [("#..#", "....", "##.."), ("#.#", "...", "###", "..#")]
 SOON = st.sampled_from([1, 1, 3, 12])  # ticks within which an event comes after another
 NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
@@ -82,6 +84,7 @@ RANGES = {  # of what varies
     "linear_damping": st.just((0.0, 9.0)),
     "angular_damping": st.just((1.0, 30.0)),
 }
+FORCED = st.sampled_from([(2.0, 200.0), (80.0, 80.0)])
 DIAMETERS = st.sampled_from([2.0, 2.0, 0.7, 3.0])
 RECTANGLES = st.sampled_from([2.0, (3.0, 2.0), (1.0, 2.5), (4.0, 1.0)])
 MATERIAL = (  # density, friction, damping
@@ -171,7 +174,8 @@ def _variations(draw: st.DrawFn, graph: Graph, task: Task) -> tuple[Variation, .
     kinds += [("thing", each.name, each.kind) for each in task.things]
     known = [(noun, name, argument) for noun, name, kind in kinds for argument in kind.varying]
     some = draw(st.lists(st.sampled_from(known), unique=True, max_size=4)) if draw(st.booleans()) else []
-    return tuple(Variation(*about, *draw(RANGES[about[2]])) for about in some)
+    ranges = [FORCED if noun == "thing" and key == "thrust" else RANGES[key] for noun, _, key in some]
+    return tuple(Variation(*about, *draw(of)) for about, of in zip(some, ranges, strict=True))
 
 
 @st.composite
@@ -221,6 +225,13 @@ def _goings(draw: st.DrawFn, placed: dict[str, Any], names: list[str]) -> dict[s
 
 
 @st.composite
+def _drives(draw: st.DrawFn, names: list[str]) -> dict[str, Any]:
+    """How a loose thing drives itself."""
+    aim = draw(st.sampled_from(["seeks", "flees"]))
+    return {aim: draw(st.sampled_from(names)), "speed": draw(SPEEDS), "thrust": draw(FORCES), "range": draw(NOTICED)}
+
+
+@st.composite
 def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...]) -> tuple[Thing, ...]:
     """Items, zones and powers, some of them not there; obstacles on a grid or loose."""
     things: list[Thing] = []
@@ -241,6 +252,8 @@ def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...]) -> tuple
             elif at and draw(st.booleans()):
                 others = draw(st.lists(PLACES, min_size=1, max_size=3))
                 placed |= {"or_": tuple((place,) for place in others), "count": draw(st.sampled_from([1, 2]))}
+            if kind.is_loose and draw(st.booleans()):
+                placed |= draw(_drives(["robot", name, *(thing.name for thing in things)]))
             if kind is Walker:
                 placed = draw(_goings(placed, ["robot", "cat", *(thing.name for thing in things)]))
                 if "from_" in placed and outcomes["reached"] == "moves":

@@ -89,7 +89,7 @@ THING = _columns(
     "turn copy copies option options is_within inside insides x_row y_row",
     f8="first last by low high hold x y left right below above",
 )
-LOOSE = _columns(i8="thing is_round density friction slower number turn")
+LOOSE = _columns(i8="thing is_round density friction slower number turn step thrust after afters aim", f8="range")
 WALKING = _columns(i8="thing way ways copy is_anywhere is_drawn step turn after afters aim", f8="range")
 WAY = _columns(i8="first places")
 CORNER = _columns(i8="next x_row y_row", f8="x y")

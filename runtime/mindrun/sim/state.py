@@ -84,6 +84,7 @@ class WorldState(Block):
     trail: Annotated[Array, rows(TRAIL_TICKS, PLACE_ROWS)]  # where the robot was in the last ticks
     # for this tick
     push: Annotated[Array, rows(PUSH_ROWS)]  # force along the heading, torque, the force's x and y, force to the left
+    drive: Annotated[Array, rows("loose", PLACE_ROWS)]  # the force that each loose thing drives itself with
     acting: Annotated[Array, rows("actuators", kind=F4)]  # the commands as they act, after noise and failures
     grip: Annotated[Array, rows("actuators")]  # the share of its force that each keeps
     begun_at: Annotated[Array, rows(PLACE_ROWS)]  # where the robot was when the tick began

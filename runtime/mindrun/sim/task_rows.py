@@ -180,6 +180,7 @@ def loose_rows(task: Task, dt: float, parameters: Parameters) -> Array:
     """Rows of LOOSE: what can be pushed, in the order of the things that they are rows of."""
     rows: list[Row] = []
     _, numbers, turns = hash_numbers(task)
+    places = rows_by_name(task)
     for i, thing in enumerate(things_of(task)):
         kind: Any = thing.kind
         if kind.is_loose:
@@ -189,15 +190,28 @@ def loose_rows(task: Task, dt: float, parameters: Parameters) -> Array:
                 "friction": parameters.row("thing", thing.name, "friction", kind.friction),
                 "slower": parameters.row("thing", thing.name, "damping", kind.damping, (DAMPING, dt)),
             })  # fmt: skip
+            if kind.thing:
+                step = parameters.row("thing", thing.name, "speed", kind.speed, (TIMES, dt))
+                thrust = parameters.row("thing", thing.name, "thrust", kind.thrust)
+                rows[-1] = {**rows[-1], "step": step, "thrust": thrust, **_aim(kind, places)}
     return records(rows, codes.LOOSE)
+
+
+def _aim(kind: Any, places: Mapping[str, range]) -> Row:
+    """The columns of what goes to something by itself: the `aim` is 1 of what seeks, −1 of what flees.
+
+    That is the nearest of `afters` things from the thing `after` on, or the robot with none of them.
+    """
+    after = places.get(kind.thing, NOWHERE)
+    aim = bool(kind.seeks) - bool(kind.flees)
+    return {"aim": aim, "range": kind.range, "after": after.start, "afters": len(after)}
 
 
 def walker_rows(task: Task, dt: float, parameters: Parameters, programs: Programs) -> dict[str, Array]:
     """Rows of WALKING, in the order of the things that they are rows of, and their ways with their corners.
 
     A direction that drifts by up to √(3·dt)·turning either way in each tick has drifted by `turning` in a second, in
-    the root of the mean square. The second of several on one way begins at its second place. The `aim` is 1 of what
-    seeks, −1 of what flees: the nearest of `afters` things from the thing `after` on, or the robot with none of them.
+    the root of the mean square. The second of several on one way begins at its second place.
     """
     rows, ways = list[Row](), list[Row]()
     corners = list[Row]()
@@ -205,13 +219,11 @@ def walker_rows(task: Task, dt: float, parameters: Parameters, programs: Program
     for i, thing in enumerate(things_of(task)):
         kind: Any = thing.kind
         if kind.walks:
-            after = places.get(kind.thing, NOWHERE)
             its = kind.ways[:1] if thing.by else kind.ways
             rows.append({
                 "thing": i, "way": len(ways), "ways": len(its), "copy": i - places[thing.name].start,
                 "is_anywhere": kind.from_ == ANYWHERE, "is_drawn": len(its) > 1 or kind.from_ == ANYWHERE,
-                "aim": bool(kind.seeks) - bool(kind.flees), "range": kind.range,
-                "after": after.start, "afters": len(after),
+                **_aim(kind, places),
                 "step": parameters.row("thing", thing.name, "speed", kind.speed, (TIMES, dt)),
                 "turn": parameters.row("thing", thing.name, "turning", kind.turning, (TIMES, float(np.sqrt(3 * dt)))),
             })  # fmt: skip

@@ -5,18 +5,15 @@ from dataclasses import dataclass, replace
 from math import hypot, inf
 from typing import Annotated, Literal, NamedTuple, Protocol, get_args
 
-from mindrun.kinds.bodies.body import DAMPING, DENSITY
 from mindrun.kinds.registry import arguments, base, kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.numbers.quantity import (
     COORDINATE,
     COUNT,
     LENGTH,
-    RATIO,
     THING,
     UNSAID,
     Place,
-    Quantity,
     Reference,
     Region,
     Span,
@@ -38,10 +35,6 @@ MAX_OBSTACLES, MAX_THINGS = 2500, 100  # in one world, which looks at all of its
 
 Row = Mapping[str, float]  # columns of the lanes' table of obstacles
 Alternatives = tuple[tuple[Place, ...], ...]  # each a place, or the places of a way
-
-LOOSE_SIZE = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1000.0)
-DEFAULT_FRICTION = 0.5
-HALF_DIAGONAL = 0.7071  # of a square with side 1, and a little less
 
 
 class Rectangle(NamedTuple):
@@ -283,40 +276,6 @@ class Placed(ThingKind):
     reached: Annotated[Outcome, OUTCOME] = STAYS
 
 
-@dataclass(frozen=True, slots=True)
-class Loose(ThingKind):
-    """A solid thing that is not fixed: the robot pushes it, and so does what it pushes.
-
-    Every tick of length dt its velocity and its spin are divided by 1 + dt·damping. Where two things touch, the product
-    of their `friction` counts; the robot's is 0.2, that of walls and obstacles 1.
-    """
-
-    size: Annotated[Span, LOOSE_SIZE] = DEFAULT_SIZE
-    density: Annotated[float, DENSITY] = 0.5
-    friction: Annotated[float, RATIO] = DEFAULT_FRICTION
-    damping: Annotated[float, DAMPING] = 5.0
-    away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
-    at: Annotated[tuple[Place, ...], COORDINATE] = ()
-    or_: Annotated[Alternatives, COORDINATE] = left_out(())
-    within: Annotated[Region, THING] = left_out("")
-    count: Annotated[int, COUNT] = 1
-    reached: Annotated[Outcome, OUTCOME] = STAYS
-    delivered: Annotated[Outcome, OUTCOME] = MOVES
-
-    varying = ("density", "friction", "damping")
-    is_solid = True
-    is_loose = True
-    can_be_delivered = True
-
-    def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
-        """An error where it is placed so near that the robot would be in it, or where no thing could be."""
-        extent = self.largest * (0.5 if self.is_round else HALF_DIAGONAL)
-        if self.away != DEFAULT_DISTANCE and max(self.away.first, self.away.last) < extent:
-            hint = f"Write away {self.largest:g} to {self.largest + 20:g}: it is {self.largest:g} large."
-            return ThingMistake("on-the-robot", "So near, it would stand on the robot.", hint)
-        return ThingKind.mistake(self, scene)
-
-
 @kind("content", "item")
 class Item(Placed):
     """A disc of diameter `size` that the claw can take, or `count` of them, `away` from the robot or `at` a place.
@@ -353,23 +312,3 @@ class Power(Placed):
 
     is_area = True
     charges = True
-
-
-@kind("content", "box")
-class LooseBox(Loose):
-    """A solid square of side `size` that can be pushed, and turns as it is pushed.
-
-    Each tick of length dt divides its velocity and its spin by 1 + dt·damping. `friction` multiplies with that of what
-    it touches: the robot's is 0.2, a wall's and an obstacle's 1. It is `reached` when the claw could take it if it were
-    an item, and `delivered` when its middle is pushed into a zone: it stays, moves elsewhere or vanishes.
-    """
-
-
-@kind("content", "ball")
-class Ball(Loose):
-    """A solid disc of diameter `size` that can be pushed, and rolls on for a while; all else is as of a box."""
-
-    density: Annotated[float, DENSITY] = 0.2
-    damping: Annotated[float, DAMPING] = 1.0
-
-    is_round = True

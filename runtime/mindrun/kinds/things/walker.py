@@ -7,7 +7,7 @@ from typing import Annotated, Literal, get_args
 
 from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.about import AboutThing
+from mindrun.kinds.things.aim import SPEED, Aiming
 from mindrun.kinds.things.thing import (
     DEFAULT_DISTANCE,
     DEFAULT_SIZE,
@@ -25,7 +25,6 @@ from mindrun.numbers.quantity import (
     DISTANCE,
     FARTHEST_UNITS,
     LENGTH,
-    POSITIVE,
     THING,
     Place,
     Reference,
@@ -33,7 +32,6 @@ from mindrun.numbers.quantity import (
     Span,
 )
 
-SPEED = replace(POSITIVE, name="a speed in world units per second", high=1e4)
 TURNING = replace(ANGLE, low=0.0)
 
 Begin = Literal["start", "anywhere"]  # where on its way
@@ -43,7 +41,7 @@ BEGIN = Reference("beginning", get_args(Begin))
 
 
 @kind("content", "walker")
-class Walker(ThingKind, AboutThing):
+class Walker(ThingKind, Aiming):
     """A disc of diameter `size` on the floor that moves at `speed`, in units per second, and touches nothing.
 
     It wanders: its direction drifts by about `turning` in a second, and where its next step would meet a wall or an
@@ -75,11 +73,6 @@ class Walker(ThingKind, AboutThing):
     walks = True
 
     @property
-    def thing(self) -> str:
-        """The name of what it seeks or flees; empty where it does neither."""
-        return self.seeks or self.flees
-
-    @property
     def places(self) -> tuple[Place, ...]:
         """The places of its only way, or where it has none, those at which it begins."""
         return () if self.or_ or self.from_ == ANYWHERE else self.along or self.at
@@ -109,14 +102,8 @@ class Walker(ThingKind, AboutThing):
 
         Or where it has two aims, or a distance without one.
         """
-        if len([each for each in (self.along, self.seeks, self.flees) if each]) > 1:
-            hint = "Leave all but one of along, seeks and flees out."
-            return ThingMistake("two-aims", "It can go one way at a time.", hint)
-        if self.range != FARTHEST_UNITS and not self.thing:
-            hint = "Write seeks or flees, and of what: flees robot range 10."
-            return ThingMistake(
-                "aimless-distance", "A distance says when it seeks or flees, and it does neither.", hint
-            )
+        if mistake := self.aim_mistake():
+            return mistake
         if not self.along:
             hint = "Write the places of its way: along 0 0 to 10 0 from anywhere."
             lost = ThingMistake("missing-argument", "What has no way begins nowhere on it.", hint)

@@ -22,8 +22,9 @@ from mindrun.numbers.arithmetic import (
     size_of,
 )
 from mindrun.sim.codes import HALF_DIAGONAL, Tables
+from mindrun.sim.lanes.aim import seek
 from mindrun.sim.lanes.solid import extent_of, is_free, within
-from mindrun.sim.state import FIRST_LOOSE, ContactState, WorldState
+from mindrun.sim.state import FIRST_LOOSE, PLACE_ROWS, ContactState, WorldState
 from mindrun.sim.units import unit_where
 
 REST_SPEED = 1e-3  # units and radians per second: what is slower stands still
@@ -36,7 +37,8 @@ OF_LOOSE = unit_where(lambda tables: len(tables.loose) > 0)
 def slow_down(tables: Tables, world: WorldState, contact: ContactState, lane: int) -> None:
     """Damp what has not settled, v / (1 + dt·c), and let it rest where it is slow enough.
 
-    Its solid is not asleep: it may have appeared elsewhere, and settles there without a contact.
+    Its solid is not asleep: it may have appeared elsewhere, and settles there without a contact. What drives itself
+    never settles.
     """
     loose, dt, restless = world.loose, tables.world[0].dt, 0
     for i in range(len(tables.loose)):
@@ -52,9 +54,38 @@ def slow_down(tables: Tables, world: WorldState, contact: ContactState, lane: in
                 put_thing(world.things, thing, np.nan, np.nan, lane)
             rests = is_at_rest(vx, vy, spin) or not there
             put_motion(loose, row, vx, vy, spin, rests, lane)
-            world.still[i, lane] = (world.still[i, lane] + 1 if there else SETTLED_TICKS) if rests else 0
+            settles = rests and (tables.loose[i].aim == 0 or not there)
+            world.still[i, lane] = (world.still[i, lane] + 1 if there else SETTLED_TICKS) if settles else 0
             restless += 1
+            if tables.loose[i].aim != 0:
+                drive(tables, world, i, lane)
     world.restless[lane] = restless
+
+
+@unit_where(lambda tables: bool(tables.loose["aim"].any()))
+def drive(tables: Tables, world: WorldState, i: int, lane: int) -> None:
+    """Write down the force by which loose thing i drives itself, none where it knows no way.
+
+    Of at most its thrust, it is the one by which the next tick, once it has been damped, takes it along its way.
+    """
+    loose, row, dt = tables.loose[i], LOOSE_ROWS * i, tables.world[0].dt
+    x, y = next_place_of(tables, world, i, lane)
+    dx, dy = seek(world, loose, x, y, lane)
+    slower, mass = world.numbers[loose.slower, lane], mass_of(tables, world, i, lane)
+    along = (dx / dt / slower - world.loose[row + PUSHED_X, lane]) * mass / dt
+    across = (dy / dt / slower - world.loose[row + PUSHED_Y, lane]) * mass / dt
+    wanted, most = np.sqrt(along * along + across * across), world.numbers[loose.thrust, lane]
+    share = most / wanted if wanted > most else 1.0
+    if np.isnan(wanted):
+        along, across = 0.0, 0.0
+    world.drive[PLACE_ROWS * i + X, lane], world.drive[PLACE_ROWS * i + Y, lane] = along * share, across * share
+
+
+def mass_of(tables, world, i, lane):
+    """The mass of loose thing i."""
+    body = tables.loose[i]
+    density, size = world.numbers[body.density, lane], size_of(world.things, body.thing, lane)
+    return density * np.pi * (size / 2 * (size / 2)) if body.is_round else density * (size * size)
 
 
 def is_at_rest(vx, vy, spin):
@@ -116,9 +147,16 @@ def approach_loose(tables: Tables, world: WorldState, contact: ContactState, lan
 @OF_LOOSE
 def slide(tables: Tables, world: WorldState, lane: int) -> None:
     """Make Chipmunk's step of loose things that touch nothing."""
+    loose, dt = world.loose, tables.world[0].dt
     for i in range(len(tables.loose)):
         if world.still[i, lane] == 0:
             row = LOOSE_ROWS * i
             x, y = next_place_of(tables, world, i, lane)
             put_thing(world.things, tables.loose[i].thing, x, y, lane)
-            world.loose[row + TURN, lane] += world.loose[row + PUSHED_SPIN, lane] * tables.world[0].dt
+            loose[row + TURN, lane] += loose[row + PUSHED_SPIN, lane] * dt
+            if tables.loose[i].aim != 0:
+                mass_inv = 1.0 / mass_of(tables, world, i, lane)
+                vx = loose[row + PUSHED_X, lane] + world.drive[PLACE_ROWS * i + X, lane] * mass_inv * dt
+                vy = loose[row + PUSHED_Y, lane] + world.drive[PLACE_ROWS * i + Y, lane] * mass_inv * dt
+                spin = loose[row + PUSHED_SPIN, lane]
+                put_motion(loose, row, vx, vy, spin, is_at_rest(vx, vy, spin), lane)

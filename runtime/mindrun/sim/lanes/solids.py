@@ -24,9 +24,9 @@ from mindrun.numbers.arithmetic import (
     size_of,
 )
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE, Tables
-from mindrun.sim.lanes.loose import OF_LOOSE, SETTLED_TICKS, is_at_rest, put_motion
+from mindrun.sim.lanes.loose import OF_LOOSE, SETTLED_TICKS, is_at_rest, mass_of, put_motion
 from mindrun.sim.lanes.shapes import overlap, put_corners, put_held, put_shape, turn
-from mindrun.sim.state import FIRST_LOOSE, FIXED, HELD, ROBOT, ContactState, WorldState
+from mindrun.sim.state import FIRST_LOOSE, FIXED, HELD, PLACE_ROWS, ROBOT, ContactState, WorldState
 
 
 def open_space(tables, world, contact, lane):
@@ -76,8 +76,10 @@ def move(solid, x, y, angle, seconds):
 
 
 @OF_LOOSE
-def move_loose(tables: Tables, world: WorldState, contact: ContactState, seconds: float, lane: int) -> None:
-    """Move the loose things of a lane on that are awake, and wake what they come near."""
+def move_loose(
+    tables: Tables, world: WorldState, contact: ContactState, seconds: float, share: float, lane: int
+) -> None:
+    """Move the loose things of a lane on that are awake with a share of their force, and wake what they come near."""
     loose = world.loose
     for i in range(len(tables.loose)):
         solid, row = contact.solids[lane, FIRST_LOOSE + i], LOOSE_ROWS * i
@@ -93,6 +95,9 @@ def move_loose(tables: Tables, world: WorldState, contact: ContactState, seconds
         speed.x, speed.y = loose[row + PUSHED_X, lane], loose[row + PUSHED_Y, lane]
         speed.spin = loose[row + PUSHED_SPIN, lane]
         angle = move(solid, x, y, loose[row + TURN, lane], seconds)
+        if tables.loose[i].aim != 0:
+            speed.x += world.drive[PLACE_ROWS * i + X, lane] * share * solid.mass_inv * seconds
+            speed.y += world.drive[PLACE_ROWS * i + Y, lane] * share * solid.mass_inv * seconds
         if not solid.is_round:
             turn(tables, solid, angle)
         solid.turned = angle
@@ -102,14 +107,11 @@ def move_loose(tables: Tables, world: WorldState, contact: ContactState, seconds
 
 def make(tables, world, solid, i, size, lane):
     """Give loose thing i a size, and with it its corners, its mass and its moment of inertia."""
-    half, loose = size / 2, tables.loose[i]
-    density = world.numbers[loose.density, lane]
+    half, loose, mass = size / 2, tables.loose[i], mass_of(tables, world, i, lane)
     if loose.is_round:
-        mass = density * np.pi * (half * half)
         moment = mass * (half * half) / 2.0
     else:
         put_corners(solid.own_corners, -half, -half, half, half)
-        mass = density * (size * size)
         moment = mass * (size * size + size * size) / 12.0
     solid.is_round, solid.radius, solid.made, solid.number = loose.is_round, half, size, loose.number
     solid.mass_inv, solid.moment_inv = 1.0 / mass, 1.0 / moment

@@ -25,6 +25,7 @@ from mindrun.numbers.arithmetic import (
 )
 from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PERSISTENCE_TICKS, PUSH, STEERING, TORQUE, Tables
 from mindrun.sim.lanes.act import carry
+from mindrun.sim.lanes.aim import seek
 from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_down
 from mindrun.sim.lanes.placement import at_drawn
 from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
@@ -212,30 +213,15 @@ def walk(tables: Tables, world: WorldState, lanes: int) -> None:
 
 
 def chase(tables, world, i, x, y, lane):
-    """Step straight towards the nearest that a walker seeks, or away from it; True if it could.
-
-    It does not come past what it seeks. False where that is too far away, or the step is not free.
-    """
+    """Step straight towards the nearest that a walker seeks, or away from what it flees; True if it could."""
     walker = tables.walkers[i]
-    step, dx, dy, far = world.numbers[walker.step, lane], 0.0, 0.0, np.inf
-    if walker.afters == 0:
-        dx, dy = world.body[X, lane] - x, world.body[Y, lane] - y
-        far = np.sqrt(dx * dx + dy * dy)
-    for other in range(walker.after, walker.after + walker.afters):
-        its_x, its_y = place_of(world.things, other, lane)
-        away = np.sqrt((its_x - x) * (its_x - x) + (its_y - y) * (its_y - y))
-        if other != walker.thing and away < far:  # one that has vanished is no number away
-            dx, dy, far = its_x - x, its_y - y, away
-    if not far <= walker.range:
+    dx, dy = seek(world, walker, x, y, lane)
+    if np.isnan(dx) or (dx == 0.0 and dy == 0.0):
+        return not np.isnan(dx)
+    step, half = world.numbers[walker.step, lane], size_of(world.things, walker.thing, lane) / 2
+    if not may_step(tables, world, step, x, y, x + dx, y + dy, half, lane):
         return False
-    if far == 0.0:
-        return walker.aim > 0  # there already, or away from it in no direction
-    share = walker.aim * step / far
-    share = min(share, 1.0)
-    to_x, to_y, half = x + dx * share, y + dy * share, size_of(world.things, walker.thing, lane) / 2
-    if not may_step(tables, world, step, x, y, to_x, to_y, half, lane):
-        return False
-    put_thing(world.things, walker.thing, to_x, to_y, lane)
+    put_thing(world.things, walker.thing, x + dx, y + dy, lane)
     return True
 
 

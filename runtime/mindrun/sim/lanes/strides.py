@@ -168,7 +168,7 @@ def make_step(tables, world, contact, seconds, share, lane):
     forget_old(space, contact.pairs[lane], contact.order[lane])
     move_robot(tables, world, contact, seconds, share, lane)
     if len(tables.loose) > 0:
-        move_loose(tables, world, contact, seconds, lane)
+        move_loose(tables, world, contact, seconds, share, lane)
     gather(tables, world, contact, lane)
     if len(tables.loose) > 0:
         touch_movers(tables, world, contact, lane)
