@@ -15,6 +15,7 @@ from mindrun.graph.recording_header import GOES_ON, POSE_COLUMNS, THING_COLUMNS,
 from mindrun.graph.skill_sets import reachable
 from mindrun.graph.wiring import read_by
 from mindrun.robot.recording import recording_bytes
+from mindrun.sim.codes import AWAY
 from mindrun.sim.trace import Ticks
 from mindrun.terminal.command_line import command_line
 from numpy.typing import NDArray
@@ -24,6 +25,7 @@ from mindlang.lock.status import ReadyMind, make_ready
 from mindlang.run.recorded_run import Floats, RecordedRun
 from mindlang.run.setup import RunSetup
 
+NO_BOX = AWAY, AWAY, 0.0, 0.0  # in the place of an obstacle that is nowhere
 SOURCE_SUFFIX = ".mind"
 Rows = NDArray[Any]
 
@@ -140,7 +142,7 @@ def run_of(about: About, rows: Rows, mind: Bundle, folder: Path) -> RecordedRun:
     things = np.concatenate([begin[POSE_COLUMNS:].reshape(1, -1, THING_COLUMNS), world["things"]])
     return RecordedRun(
         RunSetup(task, about.master, ReadyMind(mind.policy, (), ()), folder),
-        np.array(said.boxes, np.float64).reshape(-1, 4),
+        np.array([box or NO_BOX for box in said.boxes], np.float64).reshape(-1, 4),
         np.concatenate([begin[None, :POSE_COLUMNS], world["pose"]]),
         things[:, :, :-1],
         things[:, :, -1],

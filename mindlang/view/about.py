@@ -8,7 +8,6 @@ from mindrun.graph.graph import Graph, Skill, Task
 from mindrun.graph.named_readings import reading_names, servo_reading
 from mindrun.graph.recording_header import About, RecordedWorld
 from mindrun.kinds.registry import names
-from mindrun.sim.codes import AWAY
 from mindrun.sim.task_rows import opened_boxes, things_of
 
 from mindlang.pictures.scene import half_sides, thing_colours
@@ -155,7 +154,7 @@ def _world(graph: Graph, task: Task, world: RecordedWorld, columns: Columns) -> 
     contents = things_of(task)
     colours = zip(thing_colours(contents, PAPER), thing_colours(contents, NIGHT), strict=True)
     body, opened = graph.body, opened_boxes(task)
-    standing = [(number, box) for number, box in enumerate(world.boxes) if box[0] != AWAY]
+    standing = [(number, box) for number, box in enumerate(world.boxes) if box]
     return {
         "arena": [*half_sides(task.scene)] if task.scene.is_bounded else None,
         "boxes": [[*box] for _, box in standing],

@@ -61,8 +61,8 @@ def world_row_of(task: Task) -> np.dtype[Any]:
 class RecordedWorld:
     """The simulated world of a recording: the task and the seed that it is of, and how many columns there are of it.
 
-    `boxes` [n] are its obstacles, `begin` the pose and then each thing as the recording begins, None where something
-    is nowhere.
+    `boxes` [n] are its obstacles, x, y and half of both sides, `begin` the pose and then each thing as the recording
+    begins; None is what is nowhere.
     """
 
     task: str
@@ -70,7 +70,7 @@ class RecordedWorld:
     things: Annotated[int, COLUMNS]
     rewards: Annotated[int, COLUMNS]
     events: Annotated[int, COLUMNS]
-    boxes: Annotated[tuple[tuple[float, float, float, float], ...], NUMBER]
+    boxes: Annotated[tuple[tuple[float, float, float, float] | None, ...], NUMBER]
     begin: Annotated[tuple[float | None, ...], NUMBER]
 
     @classmethod
@@ -78,7 +78,9 @@ class RecordedWorld:
         """The world of a run of a task, with its obstacles [boxes, 4] and what `begin` has."""
         things = (len(begin) - POSE_COLUMNS) // THING_COLUMNS
         there = tuple(float(number) if abs(number) < NUMBER.high else None for number in begin)
-        standing = tuple((x, y, half_x, half_y) for x, y, half_x, half_y in boxes.tolist())
+        standing = tuple(
+            (x, y, half_x, half_y) if abs(x) < NUMBER.high else None for x, y, half_x, half_y in boxes.tolist()
+        )
         return cls(task.name, seed, things, len(task.rewards), len(task.events), standing, there)
 
     @property
