@@ -7,7 +7,7 @@ from mindrun.numbers.arithmetic import BOX_COLUMNS, COSINE, SINE, X, Y, distance
 from mindrun.sim import codes
 from mindrun.sim.codes import DELIVERY, GOING_ON, LEAVE, REACH, Tables
 from mindrun.sim.lanes.reaching import arrivals, become, begun_of, cross, meet
-from mindrun.sim.lanes.solid import put_box
+from mindrun.sim.lanes.solid import remove_box
 from mindrun.sim.lanes.think import run_program
 from mindrun.sim.state import PLACE_ROWS, State, WorldState
 from mindrun.sim.units import unit, unit_where
@@ -182,7 +182,7 @@ def open_boxes(tables: Tables, state: State, i: int, lanes: int) -> None:
     for lane in range(lanes):
         for b in range(end.box, end.box + (end.boxes if come[lane] > 0.0 else 0)):
             if boxes[lane, BOX_COLUMNS * b + X] != codes.AWAY:
-                put_box(boxes[lane], b, codes.AWAY, codes.AWAY, 0.0, 0.0)
+                remove_box(boxes[lane], b)
                 state.sight.anchor[X, lane] = np.nan
 
 

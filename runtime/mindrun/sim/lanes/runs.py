@@ -4,12 +4,12 @@ import numpy as np
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import ANGLE, COSINE, SINE, X, Y, sine_cosine
-from mindrun.sim.codes import AWAY, DRAWN_NUMBER, GOING_ON, LEAVE, LOST, SERVO, VISIT, Tables
+from mindrun.sim.codes import DRAWN_NUMBER, GOING_ON, LEAVE, LOST, SERVO, VISIT, Tables
 from mindrun.sim.lanes.drawn_numbers import draw_numbers, set_numbers
 from mindrun.sim.lanes.judge import patch_of
 from mindrun.sim.lanes.placement import draw, vanish
 from mindrun.sim.lanes.reaching import begin_inside
-from mindrun.sim.lanes.solid import is_lost, put_box
+from mindrun.sim.lanes.solid import is_lost, remove_box
 from mindrun.sim.lanes.think import run_program
 from mindrun.sim.state import PLACE_ROWS, Jobs, State
 from mindrun.sim.units import unit, unit_where
@@ -83,7 +83,7 @@ def leave_out(tables: Tables, state: State, lane: int) -> None:
             if presence.thing >= 0:
                 vanish(tables, state.world, presence.thing, lane)
             for b in range(presence.box, presence.box + presence.boxes):
-                put_box(state.world.boxes[lane], b, AWAY, AWAY, 0.0, 0.0)
+                remove_box(state.world.boxes[lane], b)
 
 
 def of_drawn(tables, state, code, length, lane):

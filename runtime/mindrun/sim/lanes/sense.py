@@ -33,9 +33,9 @@ from mindrun.numbers.arithmetic import (
     uniform,
     wrapped,
 )
-from mindrun.sim.codes import AWAY, Tables
+from mindrun.sim.codes import Tables
 from mindrun.sim.kind_lanes import read
-from mindrun.sim.lanes.solid import put_box
+from mindrun.sim.lanes.solid import put_box, remove_box
 from mindrun.sim.state import (
     FIRST_RAY,
     HIGH,
@@ -219,7 +219,7 @@ def choose_in(boxes, sight, reach, lane):
             put_box(nearby, found, its_x, its_y, wide, high)
             found += 1
     for k in range(found, sight.nearby_count[lane]):
-        put_box(nearby, k, AWAY, AWAY, 0.0, 0.0)
+        remove_box(nearby, k)
     sight.nearby_count[lane] = found
 
 

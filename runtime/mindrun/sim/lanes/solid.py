@@ -31,7 +31,7 @@ from mindrun.numbers.arithmetic import (
     sine_cosine,
     size_of,
 )
-from mindrun.sim.codes import FAR, HALF_DIAGONAL, Tables
+from mindrun.sim.codes import AWAY, FAR, HALF_DIAGONAL, Tables
 from mindrun.sim.state import FIRST_LOOSE, HELD, ROBOT, WorldState
 from mindrun.sim.units import seldom, unit_where
 
@@ -55,6 +55,11 @@ def put_box(boxes, b, x, y, wide, high):
     """Write box b of a lane: its middle, and half of its sides."""
     box = BOX_COLUMNS * b
     boxes[box + X], boxes[box + Y], boxes[box + HALF_X], boxes[box + HALF_Y] = x, y, wide, high
+
+
+def remove_box(boxes, b):
+    """Let box b of a lane be none."""
+    put_box(boxes, b, AWAY, AWAY, 0.0, 0.0)
 
 
 def is_clear(boxes, x, y, margin, lane):
