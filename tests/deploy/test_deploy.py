@@ -31,50 +31,30 @@ def test_the_first_deployment(robot: FakeRobot, bundles: Bundles, mindc: Call) -
 
 
 def test_the_next_one_and_back_again(old: str, robot: FakeRobot, bundles: Bundles, mindc: Call) -> None:
-    for bundle in bundles[1:]:
-        assert mindc("deploy", bundle, HOST, *NOW).code == 0
-    assert robot.master() == "Turn"
+    """What was left is never gone back to, and what a name stands for is on the disk before it."""
+    assert mindc("deploy", bundles[1], HOST, *NOW).code == 0
+    steps = robot.log("steps")
+    moves = [number for number, step in enumerate(steps) if step.startswith("mv")]
+    assert len(moves) == 3  # the service, the release, current
+    assert all(steps[number - 1].startswith("sync") for number in moves)
     stopped = [line for line in robot.log("systemctl.log") if line.startswith("stop")]
-    assert [name.partition("-")[2] for name in robot.releases()[:2]] == [line.split()[1] for line in stopped]
-    assert mindc("deploy", HOST, "--rollback", *NOW).code == 0
-    assert robot.master() == "Chase"
-    assert mindc("deploy", HOST, "--rollback", *NOW).code == 0
-    assert robot.master() == "Roam"
+    assert [old.partition("-")[2]] == [line.split()[1] for line in stopped]
+    for words, master in (((HOST, "--rollback"), "Roam"), ((bundles[2], HOST), "Turn"), ((HOST, "--rollback"), "Roam")):
+        assert mindc("deploy", *words, *NOW).code == 0
+        assert robot.master() == master
     said = mindc("deploy", HOST, "--rollback", *NOW)
     assert said.code == 1
     assert "no whole release before" in said.err
     states = [each["state"] for each in json.loads(mindc("deploy", HOST, "--list", "--json").out)["releases"]]
-    assert states == ["whole", "left", "left"]
+    assert states == ["whole", "left"]  # what was left before is gone
     assert "→" in mindc("deploy", HOST, "--list").out
 
 
-def test_a_release_that_was_left_is_never_gone_back_to(
-    old: str, robot: FakeRobot, bundles: Bundles, mindc: Call
-) -> None:
-    _, chase, turn = bundles
-    for words in ((chase, HOST), (HOST, "--rollback"), (turn, HOST), (HOST, "--rollback")):
-        assert mindc("deploy", *words, *NOW).code == 0
-    assert robot.master() == "Roam"
-
-
-def test_old_releases_go(old: str, robot: FakeRobot, bundles: Bundles, mindc: Call) -> None:
-    for bundle in bundles[1:]:
-        assert mindc("deploy", bundle, HOST, "--keep", 2, *NOW).code == 0
-    assert len(robot.releases()) == 2
-    assert robot.current() == robot.releases()[-1]
-    assert not list((robot.mind / "incoming").iterdir())
-
-
-def test_the_same_again_copies_nothing(old: str, robot: FakeRobot, bundles: Bundles, mindc: Call) -> None:
-    robot.tell("break", 0)
-    said = mindc("deploy", bundles[0], HOST, "--arm-service", *NOW)
-    assert said.code == 0
-    assert "already" in said.err
-    assert len(robot.releases()) == 1
-
-
 def test_armed_only_by_the_last_command(old: str, robot: FakeRobot, bundles: Bundles, mindc: Call) -> None:
-    mindc("deploy", bundles[0], HOST, "--arm-service", *NOW)
+    robot.tell("break", 0)  # the same again copies nothing
+    said = mindc("deploy", bundles[0], HOST, "--arm-service", *NOW)
+    assert (said.code, "already" in said.err, robot.releases()) == (0, True, [old])
+    robot.forget("break")
     assert "--arm\n" in robot.unit.read_text()
     mindc("deploy", bundles[0], HOST, *NOW)
     assert "--arm" not in robot.unit.read_text()
@@ -117,13 +97,3 @@ def test_a_dry_run_changes_nothing(robot: FakeRobot, bundles: Bundles, mindc: Ca
     assert said.code == 0
     assert "would copy" in said.err
     assert not robot.mind.exists()
-
-
-def test_what_a_name_stands_for_is_on_the_disk_before_it(
-    old: str, robot: FakeRobot, bundles: Bundles, mindc: Call
-) -> None:
-    mindc("deploy", bundles[1], HOST, *NOW)
-    steps = robot.log("steps")
-    moves = [number for number, step in enumerate(steps) if step.startswith("mv")]
-    assert len(moves) == 3  # the service, the release, current
-    assert all(steps[number - 1].startswith("sync") for number in moves)

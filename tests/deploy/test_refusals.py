@@ -12,7 +12,7 @@ from tests.deploy.robot import HOST, FakeRobot
 Bundles = tuple[Path, Path, Path]
 
 
-@pytest.mark.parametrize("file", ["mind.bundle", "SHA256SUMS", "engine.py"])
+@pytest.mark.parametrize("file", ["SHA256SUMS", "engine.py"])
 def test_a_damaged_transfer(file: str, old: str, robot: FakeRobot, bundles: Bundles, mindc: Call) -> None:
     robot.tell("truncate", file)
     said = mindc("deploy", bundles[1], HOST, "--watch", 0)

@@ -28,7 +28,9 @@ def test_folders_of_others_stay_and_disturb_nothing(old: str, robot: FakeRobot, 
         said = mindc("deploy", bundle, HOST, "--keep", 2, *NOW)
         assert said.code == 0, said.err
     assert robot.master() == "Turn"
-    assert not {"notes.txt", *FOREIGN} - {*robot.releases()}
+    assert {"notes.txt", *FOREIGN} < {*robot.releases()}
+    assert len(robot.releases()) == len(FOREIGN) + 3, "two are kept"
+    assert not list((robot.mind / "incoming").iterdir())
     assert mindc("deploy", HOST, "--rollback", *NOW).code == 0
     assert robot.master() == "Chase"
     assert len(mindc("deploy", HOST, "--list").out.splitlines()) == 2

@@ -11,7 +11,16 @@ from mindrun.graph.policy import Policy
 from mindrun.robot.ownership import DrivenError, adopt, hold_devices
 
 from tests.robot.driving import children, until, wiring
-from tests.robot.faults import graph
+from tests.robot.faults import MIND, SENSORS, graph
+from tests.sim.minds import compile_text
+
+
+@pytest.fixture
+def quick(bundle: Path) -> Path:
+    """The bundle, whose task lasts a second."""
+    text = MIND.format(kind=SENSORS["bearing"][0], function="rule").replace("lasts 100 ticks", "lasts 20 ticks")
+    write_bundle(bundle, Bundle(Policy(compile_text(text), {}), {}))
+    return bundle
 
 
 @pytest.fixture

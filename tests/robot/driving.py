@@ -1,17 +1,21 @@
-"""`mindrun` as a process that drives a robot of mock drivers: begun, watched, ended."""
+"""`mindrun` that drives a robot of mock drivers: called in this process, or as one that is begun, watched, ended."""
 
 import os
 import subprocess
 import sys
 import time
 from collections.abc import Callable
+from contextlib import redirect_stderr, redirect_stdout
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+from mindrun.__main__ import main
 from mindrun.graph.bundle import Bundle, write_bundle
 from mindrun.graph.policy import Policy
 from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
+from mindrun.terminal.standard_streams import Printable
 
 from tests.robot.faults import MIND, SENSORS
 from tests.sim.minds import compile_text
@@ -36,8 +40,23 @@ def write_procedure(path: Path, source: str) -> None:
     write_bundle(path, Bundle(Policy(compile_text(text), {}), {"own": source}, wiring()))
 
 
-def mindrun(*words: object, **more: Any) -> subprocess.CompletedProcess[str]:
-    """It, to its end."""
+def mindrun(*words: object) -> subprocess.CompletedProcess[str]:
+    """It, to its end, in this process; what its guardian says goes elsewhere."""
+    out, err = (Printable(BytesIO(), "utf-8", write_through=True) for _ in range(2))
+    before, sys.argv = sys.argv, ["mindrun", *map(str, words)]
+    try:
+        with redirect_stdout(out), redirect_stderr(err):
+            main()
+    except SystemExit as end:
+        said = (stream.buffer.getvalue().decode() for stream in (out, err))  # type: ignore[attr-defined]
+        return subprocess.CompletedProcess(sys.argv, int(end.code or 0), *said)
+    finally:
+        sys.argv = before
+    raise AssertionError("it has no end")
+
+
+def program(*words: object, **more: Any) -> subprocess.CompletedProcess[str]:
+    """It, to its end, in a process of its own."""
     caught = {"capture_output": True} if "stderr" not in more else {}
     return subprocess.run([*MINDRUN, *map(str, words)], text=True, check=False, timeout=PATIENCE, **caught, **more)
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from math import inf, nan
 from typing import Any
 
@@ -152,6 +153,7 @@ class Robot:
         self.loop.tick()
 
 
+@cache
 def graph(kind: str) -> Graph:
     text = MIND.format(kind=SENSORS[kind][0], function="rule")
     return compile_text(text)

@@ -5,7 +5,6 @@ import shutil
 import signal
 import subprocess
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -18,40 +17,36 @@ from mindrun.robot.drivers.simulated import SimulatedActuator
 from mindrun.robot.ownership import DrivenError, claims, hold_devices
 from mindrun.robot.recording import read
 
-from tests.robot.driving import MINDRUN, NAME, begun, children, mindrun, recorded, until, write_procedure
+from tests.robot.driving import MINDRUN, NAME, begun, children, mindrun, program, recorded, until, write_procedure
 
 
-def delete(robot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    shutil.rmtree(robot)
-
-
-def move(robot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    robot.rename(robot.with_name("elsewhere"))
-    monkeypatch.setenv("MIND_ROBOT", str(robot.with_name("elsewhere") / "identity"))
-
-
-def another(robot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    shutil.copytree(robot, robot.with_name("copy"))
-    monkeypatch.setenv("MIND_ROBOT", str(robot.with_name("copy") / "identity"))
-
-
-@pytest.mark.parametrize("happens", [delete, move, another])
 def test_whatever_happens_to_files_nobody_drives_beside(
-    bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, happens: Callable[..., None]
+    bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     first = begun(bundle, tmp_path / "day.rec", stderr=subprocess.PIPE)
-    happens(tmp_path / "robot", monkeypatch)
-    mindrun("adopt", bundle)
-    for words in (("--arm",), ()):
-        said = mindrun(bundle, *words, "--ticks", 2)
-        assert said.returncode == 2
-        assert f"this robot is driven already, by process {first.pid}" in said.stderr
+
+    def is_alone() -> None:
+        mindrun("adopt", bundle)
+        for words in (("--arm",), ()):
+            said = mindrun(bundle, *words, "--ticks", 2)
+            assert said.returncode == 2
+            assert f"this robot is driven already, by process {first.pid}" in said.stderr
+
+    is_alone()
+    robot, elsewhere = tmp_path / "robot", tmp_path / "elsewhere"
+    shutil.copytree(robot, elsewhere)
+    monkeypatch.setenv("MIND_ROBOT", str(elsewhere / "identity"))
+    is_alone()
+    monkeypatch.setenv("MIND_ROBOT", str(robot.rename(tmp_path / "moved") / "identity"))
+    is_alone()
+    shutil.rmtree(tmp_path / "moved")
+    is_alone()
     first.terminate()
     first.communicate(timeout=600)
     assert mindrun(bundle, "--arm", "--ticks", 2).returncode == 0
 
 
-@pytest.mark.parametrize("closed", ["", "<&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize("closed", ["", "<&- >&- 2>&-"])
 def test_the_guardian_that_a_dead_controller_leaves_is_not_driven_beside(
     bundle: Path, tmp_path: Path, closed: str
 ) -> None:
@@ -154,8 +149,8 @@ def f(sense, pulse):
 @pytest.mark.parametrize("source", [RETURNS, RAISES, BY_C, STAYS], ids=["returns", "raises", "by C", "stays"])
 def test_what_a_procedure_forks_is_no_second_controller(bundle: Path, tmp_path: Path, source: str) -> None:
     write_procedure(bundle, source)
-    said = mindrun(bundle, "--arm", "--ticks", 12, "--record", tmp_path / "day.rec")
+    said = program(bundle, "--arm", "--ticks", 6, "--record", tmp_path / "day.rec")
     assert said.returncode == 0, said.stderr
     assert "a frame" not in said.stderr, "it has latched"
-    assert [row["tick"] for rows in read(tmp_path / "day.rec")[1] for row in rows] == list(range(12))
+    assert [row["tick"] for rows in read(tmp_path / "day.rec")[1] for row in rows] == list(range(6))
     assert mindrun(bundle, "--arm", "--ticks", 1).returncode == 0, "a child holds the robot"

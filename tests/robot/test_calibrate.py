@@ -18,7 +18,7 @@ from mindrun.robot.least_command import STEP_SHARE, Witness, least_shares, measu
 from mindrun.robot.sensing import Sample
 
 from tests.robot.devices import devices
-from tests.robot.driving import NAME, mindrun
+from tests.robot.driving import NAME, mindrun, program
 from tests.robot.faults import Scripted, graph
 
 
@@ -180,6 +180,6 @@ def test_nothing_moves_without_arm_and_only_what_drives(bundle: Path) -> None:
     assert "wheels off the ground, then add --arm" in said.stderr
     said = mindrun("calibrate", bundle, "claw", "--arm")
     assert "no sensor or motor claw is wired" in said.stderr
-    said = mindrun("calibrate", bundle, "left_wheel", "--arm", stdin=-3)  # DEVNULL
+    said = program("calibrate", bundle, "left_wheel", "--arm", stdin=-3)  # DEVNULL
     assert said.returncode == 2
     assert "nobody can say when it moves" in said.stderr

@@ -6,10 +6,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
+from time import sleep
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from mindrun.driver import DeviceError
 from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Graph, Task, Thing
 from mindrun.graph.policy import Policy
@@ -172,6 +174,19 @@ def test_the_world_is_told_the_memories_of_the_mind() -> None:
     assert scene.status()["score"] == now["count"]
 
 
+def test_a_dry_run_ends_when_its_world_does(roam: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mindrun.robot.dry_run.SHOW_SECONDS", 0.001)
+    run = DryRun(roam, task_of(roam, "Roam"), "Roam", "nowhere", StatusLine(print))
+    loop = SimpleNamespace(engine=Engine(Policy(roam, {})))
+
+    def until_lost() -> None:
+        while run.watch(loop):  # type: ignore[arg-type]
+            sleep(0.001)
+
+    with pytest.raises(DeviceError, match="the simulated world at nowhere does not answer"), run.shown():
+        until_lost()
+
+
 # The line while it drives
 
 
@@ -271,15 +286,15 @@ def begun(bundle: Path, writing: int, *words: str) -> "subprocess.Popen[bytes]":
     return subprocess.Popen(words, stderr=writing, env=os.environ | {"TERM": "xterm"})
 
 
-def test_on_a_terminal_the_line_is_rewritten_until_the_outcome(bundle: Path) -> None:
+def test_on_a_terminal_the_line_is_rewritten_until_the_outcome(quick: Path) -> None:
     with terminal() as (reading, writing):
-        process = begun(bundle, writing)
+        process = begun(quick, writing)
         os.close(writing)
         states, _, result = heard(reading).rpartition(CLEAR)
         assert process.wait(PATIENCE) == 0
-    assert states.count(f"{CLEAR}") >= 2
-    assert " of 100  Go " in states
-    assert "ticks  100 of 100, lasted its time\r\n" in result
+    assert CLEAR in states
+    assert " of 20  Go " in states
+    assert "ticks  20 of 20, lasted its time\r\n" in result
 
 
 def test_a_robot_drives_on_where_its_terminal_is_paused(bundle: Path, tmp_path: Path) -> None:
@@ -291,8 +306,8 @@ def test_a_robot_drives_on_where_its_terminal_is_paused(bundle: Path, tmp_path: 
             while True:
                 os.write(writing, b"x" * 1024)
         os.set_blocking(writing, True)
-        process = begun(bundle, writing, "--ticks", "30", "--record", str(day))
+        process = begun(bundle, writing, "--ticks", "15", "--record", str(day))
         assert process.wait(PATIENCE) == 0
         os.close(writing)
     _, (rows,) = read(day)
-    assert len(rows) == 30
+    assert len(rows) == 15

@@ -102,14 +102,19 @@ def white(count: int) -> Frame:
         (lambda count: 1 / 0, "the camera failed"),
     ],
 )
-def test_a_camera_that_sees_nothing_is_a_fault_in_time(camera: Install, broken: Draw, said: str) -> None:
+def test_a_camera_that_sees_nothing_is_a_fault_in_time(
+    camera: Install, broken: Draw, said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     good, after = at(0.0), [10**9]
     made = camera(lambda count: good(count) if count < after[0] else broken(count))
     device = BallTracker().open()
     device.read()
     after[0], begin = made.count, monotonic()
-    with pytest.raises(DeviceError, match=said):
-        read_for(ENDS, device)
+    with monkeypatch.context() as context:
+        if said == "no frame for":
+            context.setattr(ball_tracker, "MAX_FRAME_AGE_SECONDS", 0.2)
+        with pytest.raises(DeviceError, match=said):
+            read_for(ENDS, device)
     assert monotonic() - begin < ENDS
     after[0] = 10**9
     sleep(0.05)
@@ -208,7 +213,8 @@ def film(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_recorded_film_is_a_camera(film: Path) -> None:
+def test_a_recorded_film_is_a_camera(film: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ball_tracker, "MAX_FRAME_AGE_SECONDS", 2.0)
     begin = monotonic()
     device, found = BallTracker(camera=str(film)).open(), []
     with pytest.raises(DeviceError, match="no frame"):

@@ -251,8 +251,7 @@ def test_one_that_has_said_that_all_rests_is_not_replaced(start: Start, tmp_path
     assert not (tmp_path / "log-neutral").exists()
 
 
-@pytest.mark.parametrize("code", [0, 1, 70])
-@pytest.mark.parametrize("sends", [False, True])
+@pytest.mark.parametrize(("code", "sends"), [(0, False), (70, True)])
 def test_an_exit_code_says_nothing(start: Start, tmp_path: Path, code: int, sends: bool) -> None:
     """A driver, or a C library below it, may have ended the process with any."""
     guardian = start(then=f"exits {code}")

@@ -14,12 +14,18 @@ from tests.robot.guardian.hostile import NEUTRALS
 
 
 def test_random_ends(tmp_path: Path) -> None:
-    assert len([*rounds(24, 3, tmp_path, 4)]) == 24
+    assert len([*rounds(10, 8269, tmp_path, 4)]) == 10  # none hangs for the five seconds in which all is tried
 
 
-@pytest.mark.parametrize("how", ["_exit 0", "SIGSEGV", "group"])
-@pytest.mark.parametrize("when", ["open", "neutral"])
-@pytest.mark.parametrize("device", ["", "/dev/one"])
+@pytest.mark.parametrize(
+    ("how", "when", "device"),
+    [
+        ("_exit 0", "open", "/dev/one"),
+        ("SIGSEGV", "neutral", ""),
+        ("group", "neutral", "/dev/one"),
+        ("group", "open", ""),
+    ],
+)
 def test_a_driver_that_ends_the_process_takes_no_other_along(tmp_path: Path, how: str, when: str, device: str) -> None:
     """Of one device they are opened together at first, since only one process may drive it."""
     log = tmp_path / "log"
