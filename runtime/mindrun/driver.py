@@ -5,6 +5,7 @@ speak in natural units (metres, degrees, volts); `Wiring` says which of these ar
 """
 
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Protocol
 
 from mindrun.errors import MindError, text_of
@@ -20,6 +21,13 @@ def failure(error: BaseException) -> str:
     if not isinstance(error, DeviceError):
         return f"{type(error).__name__}: {text_of(error)}"
     return f"{text_of(error)}; {error.hint}" if error.hint else text_of(error)
+
+
+def discard(device: "SensorDevice | ActuatorDevice | None") -> None:
+    """Close a device that is of no use any more, whatever its driver raises."""
+    if device is not None:
+        with suppress(BaseException):
+            device.close()
 
 
 def driver_name(driver: object) -> str:

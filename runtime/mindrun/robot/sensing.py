@@ -6,7 +6,6 @@ In each tick the newest samples are filtered; a sensor with a fault reads what i
 import threading
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from math import inf, isfinite, nan
 from statistics import median
@@ -16,7 +15,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.driver import SensorDevice, failure
+from mindrun.driver import SensorDevice, discard, failure
 from mindrun.graph.graph import Graph, Sensor
 from mindrun.graph.measured import measured_on_robot, rows_of
 from mindrun.graph.wiring import SensorWire, reading, within_turn
@@ -71,7 +70,7 @@ class Sampler:
     def measured_once(self) -> Sample:
         """A sample measured now, in this thread, of a device that is open for it alone."""
         device, sample = self._measured(None)
-        _close(device)
+        discard(device)
         return sample
 
     def _run(self) -> None:
@@ -81,7 +80,7 @@ class Sampler:
             device, self.latest = self._measured(device)
             due = max(due + 1 / self.wire.rate, self._clock())
             self._stop.wait(due - self._clock())
-        _close(device)
+        discard(device)
 
     def _measured(self, device: SensorDevice | None) -> tuple[SensorDevice | None, Sample]:
         """The device, open if it works, and a sample of it."""
@@ -93,9 +92,8 @@ class Sampler:
         except BaseException as error:  # a driver may fail in any way, and the robot has to know
             if isinstance(error, KeyboardInterrupt) and threading.current_thread() is threading.main_thread():
                 raise  # Ctrl-C
-            why = failure(error)
-        _close(device)
-        return None, Sample((), began, why)
+            discard(device)
+            return None, Sample((), began, failure(error))
 
 
 def checked(given: object, at: float, wire: SensorWire) -> Sample:
@@ -121,12 +119,6 @@ def checked(given: object, at: float, wire: SensorWire) -> Sample:
             return Sample((), at, f"gave {plain:g}, which is not between {low:g} and {high:g}")
         measured.append(plain)
     return Sample(tuple(measured), at)
-
-
-def _close(device: SensorDevice | None) -> None:
-    if device is not None:
-        with suppress(BaseException):  # whatever its driver raises: it is of no use any more
-            device.close()
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,12 +164,11 @@ class ReadingFilter:
         faults, ages, why, must_stop = [], [], {}, False
         for state in self._states:
             fault, age, reason = _assess(state, time)
-            values, stops = _answer(state, fault, time)
-            place = slice(state.sensor.start, state.sensor.start + state.sensor.width)
-            readings[place] = values
+            values = _answer(state, fault, time)
+            readings[state.sensor.start : state.sensor.start + state.sensor.width] = nan if values is None else values
             faults.append(fault)
             ages.append(age)
-            must_stop |= stops
+            must_stop |= values is None
             if fault != FINE:
                 why[state.source.wire.sensor] = reason
         return FilteredReadings(readings, must_stop, tuple(faults), tuple(ages), why)
@@ -215,15 +206,15 @@ def median_direction(directions: Sequence[float]) -> float:
     return within_turn(origin + median(ways(origin)))
 
 
-def _answer(state: _State, fault: int, time: float) -> tuple[tuple[float, ...], bool]:
-    """The readings, and whether every actuator has to be neutral."""
-    wire, width = state.source.wire, state.sensor.width
+def _answer(state: _State, fault: int, time: float) -> tuple[float, ...] | float | None:
+    """The readings, or what each of them is; None where every actuator has to be neutral."""
+    wire = state.source.wire
     if fault == FINE:
-        return state.good, False
+        return state.good
     state.window.clear()
     match wire.on_fault:
         case "blank":
-            return (wire.blank,) * width, False
+            return wire.blank
         case "hold" if time - state.good_at <= wire.max_age + wire.hold:
-            return state.good, False
-    return (nan,) * width, True
+            return state.good
+    return None

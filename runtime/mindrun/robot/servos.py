@@ -38,7 +38,7 @@ class ReckonedServo:
     usual = (0.0, 1.0)
 
     def __post_init__(self) -> None:
-        self.value, neutral = self._rest, _single(self.kind.neutral)
+        self.value, neutral = self.channel.rest, _single(self.kind.neutral)
         self.late = deque([neutral] * self.kind.delay)
         self.angle = (1.0 - 2.0 * neutral) * self.kind.range
 
@@ -62,14 +62,10 @@ class ReckonedServo:
 
     def turn(self, command: float | None) -> None:
         """Turn for a tick to what the guardian makes of a command, by no more than its speed; None is its rest."""
-        self.value = self._rest if command is None else moved(self.channel, command, self.value, self.tick)
+        self.value = self.channel.rest if command is None else moved(self.channel, command, self.value, self.tick)
         self.late.append(_single(meant(self.channel, self.value)))
         left, most = (1.0 - 2.0 * self.late.popleft()) * self.kind.range - self.angle, self.kind.speed
         self.angle += min(most, max(-most, left))
-
-    @property
-    def _rest(self) -> float:
-        return min(max(self.channel.neutral + self.channel.trim, 0.0), 1.0)
 
 
 def _single(command: float) -> float:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.robot.drivers.mock import MockActuator
-from mindrun.robot.guardian.guard import Guard, Move, Order, Rest
+from mindrun.robot.guardian.guard import REST, Guard, Order
 from mindrun.robot.guardian.messages import Frame
 from mindrun.robot.guardian.plan import Channel, Plan
 
@@ -42,7 +42,7 @@ class Restated:
 
     def rest(self, why: str, latched: bool = False) -> Order:
         self.state, self.why, self.moved = "latched" if latched else "neutral", why, None
-        return Rest()
+        return REST
 
     def frame(self, frame: Frame, now: float, settled: bool) -> Order:
         if self.state == "latched" or now - frame.sent >= 2 * TICK:
@@ -73,7 +73,7 @@ class Restated:
             if each.slew and abs(change) > each.slew * seconds:
                 change = each.slew * seconds if change > 0 else -each.slew * seconds
             self.places[number] = min(1.0, max(0.0, self.places[number] + change))
-        return Move(tuple(1 - p if c.reversed else p for p, c in zip(self.places, self.channels, strict=True)))
+        return tuple(1 - p if c.reversed else p for p, c in zip(self.places, self.channels, strict=True))
 
     @staticmethod
     def sent(each: Channel, command: float) -> float:

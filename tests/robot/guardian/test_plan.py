@@ -19,7 +19,7 @@ from mindrun.robot.drivers.own import KIND as OWN_KIND
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.drivers.simulated import SimulatedActuator
 from mindrun.robot.guardian.client import PROGRAM
-from mindrun.robot.guardian.plan import Channel, Plan, checked, from_json, plan_of, read_plan, to_json
+from mindrun.robot.guardian.plan import Channel, Plan, from_json, plan_of, read_plan, to_json
 
 from tests.minds import always, mind, rule
 
@@ -166,17 +166,17 @@ def test_a_whole_number_that_no_float_holds_is_none() -> None:
 
 def test_as_many_actuators_as_a_frame_has_room_for() -> None:
     with pytest.raises(MindError) as caught:
-        checked(Plan(0.05, PLAN.channels[:1] * 1001))
+        Plan(0.05, PLAN.channels[:1] * 1001)
     assert str(caught.value) == "a robot has 1 to 1000 actuators, not 1001"
-    assert len(checked(Plan(0.05, PLAN.channels[:1] * 1000)).channels) == 1000
+    assert len(Plan(0.05, PLAN.channels[:1] * 1000).channels) == 1000
     with pytest.raises(MindError, match="not 0"):
         plan_of(0.05, {}, Wiring("r", (), ()))
 
 
 def test_limits_may_meet_but_not_cross() -> None:
-    assert checked(Plan(0.05, (Channel("wheel", 0.5, MockActuator(), low=0.5, high=0.5),)))
+    assert Plan(0.05, (Channel("wheel", 0.5, MockActuator(), low=0.5, high=0.5),))
     with pytest.raises(MindError) as caught:
-        checked(Plan(0.05, (*PLAN.channels, Channel("claw", 0.5, MockActuator(), low=0.75, high=0.25))))
+        Plan(0.05, (*PLAN.channels, Channel("claw", 0.5, MockActuator(), low=0.75, high=0.25)))
     assert str(caught.value) == "claw: `low` 0.75 is above `high` 0.25"
 
 

@@ -6,7 +6,6 @@ latched    neutral until the guardian is started anew: whoever sends such frames
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import inf
 
 from mindrun.robot.guardian.messages import Frame
@@ -21,19 +20,8 @@ SILENT_TICKS = 2  # after which the controller hangs, or an actuator does not an
 MAX_FAILURES = 3  # of actuators: the third latches
 
 
-@dataclass(frozen=True, slots=True)
-class Move:
-    """Send these values to the devices."""
-
-    values: tuple[float, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Rest:
-    """Bring every device to neutral."""
-
-
-Order = Move | Rest | None
+Order = tuple[float, ...] | None  # values for the devices, or none of them: every device to neutral
+REST: Order = ()
 
 
 def failing(why: str, actuators: Sequence[str]) -> int | None:
@@ -46,8 +34,7 @@ class Guard:
 
     def __init__(self, plan: Plan) -> None:
         self._plan = plan
-        # Neutral with the trim, which corrects where a wheel stands still; limits and slew do not hold it.
-        self._rest = tuple(min(max(each.neutral + each.trim, 0.0), 1.0) for each in plan.channels)
+        self._rest = tuple(each.rest for each in plan.channels)
         self._values, self._then = self._rest, -inf
         self.limit = SILENT_TICKS * plan.tick
         self.state, self.why = NEUTRAL, STARTED
@@ -83,7 +70,7 @@ class Guard:
         wanted = zip(self._plan.channels, frame.commands, self._values, strict=True)
         self._values = tuple(moved(channel, command, before, seconds) for channel, command, before in wanted)
         self._then = now
-        return Move(tuple(map(turned, self._plan.channels, self._values)))
+        return tuple(map(turned, self._plan.channels, self._values))
 
     def passed(self, now: float) -> Order:
         """Time has passed without a frame; `now` is the monotonic clock in seconds."""
@@ -113,10 +100,10 @@ class Guard:
         self.state = LATCHED
         return order
 
-    def _neutral(self, why: str) -> Rest:
+    def _neutral(self, why: str) -> Order:
         self.state, self.why, self.deadline = NEUTRAL, why, inf
         self._values, self._then = self._rest, -inf
-        return Rest()
+        return REST
 
 
 def moved(channel: Channel, command: float, before: float, seconds: float) -> float:
@@ -132,8 +119,7 @@ def started(channel: Channel, command: float) -> float:
     """A command from neutral with the trim to the same ends, of which it makes the least share at once."""
     if channel.trim == 0 and channel.least == 0:
         return command
-    rest = min(max(channel.neutral + channel.trim, 0.0), 1.0)
-    end = float(command > channel.neutral)
+    rest, end = channel.rest, float(command > channel.neutral)
     if command == channel.neutral or end == channel.neutral:
         return rest
     share = (command - channel.neutral) / (end - channel.neutral)
@@ -144,7 +130,7 @@ def meant(channel: Channel, value: float) -> float:
     """The command that is `started` as this value: neutral for what is less than the least share away from it."""
     if channel.trim == 0 and channel.least == 0:
         return value
-    rest = min(max(channel.neutral + channel.trim, 0.0), 1.0)
+    rest = channel.rest
     if value == rest:
         return channel.neutral
     end, spare = float(value > rest), 1.0 - channel.least

@@ -40,13 +40,28 @@ class Channel:
     reversed: bool = False
     least: Annotated[float, RATIO] = left_out(0.0)
 
+    @property
+    def rest(self) -> float:
+        """Neutral with the trim, which corrects where a wheel stands still; limits and slew do not hold it."""
+        return min(max(self.neutral + self.trim, 0.0), 1.0)
+
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """All actuators in the order of the commands, and how long a tick is."""
+    """All actuators in the order of the commands, and how long a tick is.
+
+    MindError where there are too few or too many actuators, or limits that no command meets.
+    """
 
     tick: Annotated[float, SECONDS]
     channels: tuple[Channel, ...]
+
+    def __post_init__(self) -> None:
+        if not 1 <= len(self.channels) <= MAX_COMMANDS:
+            raise MindError(f"a robot has 1 to {MAX_COMMANDS} actuators, not {len(self.channels)}")
+        for channel in self.channels:
+            if channel.low > channel.high:
+                raise MindError(f"{channel.actuator}: `low` {channel.low:g} is above `high` {channel.high:g}")
 
 
 def plan_of(tick: float, neutrals: Mapping[str, float], wiring: "Wiring") -> Plan:
@@ -55,17 +70,7 @@ def plan_of(tick: float, neutrals: Mapping[str, float], wiring: "Wiring") -> Pla
         Channel(w.actuator, neutrals[w.actuator], w.driver, w.trim, w.low, w.high, w.slew, w.reversed, w.least)
         for w in wiring.actuators
     )
-    return checked(Plan(tick, tuple(channels)))
-
-
-def checked(plan: Plan) -> Plan:
-    """The plan itself; MindError where it has too few or too many actuators, or limits that no command meets."""
-    if not 1 <= len(plan.channels) <= MAX_COMMANDS:
-        raise MindError(f"a robot has 1 to {MAX_COMMANDS} actuators, not {len(plan.channels)}")
-    for channel in plan.channels:
-        if channel.low > channel.high:
-            raise MindError(f"{channel.actuator}: `low` {channel.low:g} is above `high` {channel.high:g}")
-    return plan
+    return Plan(tick, tuple(channels))
 
 
 def to_json(plan: Plan) -> str:
@@ -79,7 +84,7 @@ def from_json(text: str | bytes) -> Plan:
         plan: Plan = decode(Plan, parsed(text, MAX_PLAN_BYTES), "plan")
     except ValueError as error:
         raise MindError(f"this is no plan of a robot: {error}") from error
-    return checked(plan)
+    return plan
 
 
 def read_plan(path: Path) -> Plan:

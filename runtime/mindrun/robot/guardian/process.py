@@ -13,20 +13,9 @@ from select import select
 from threading import Condition, Thread
 from time import monotonic
 
-from mindrun.driver import ActuatorDevice, failure
+from mindrun.driver import ActuatorDevice, discard, failure
 from mindrun.errors import text_of
-from mindrun.robot.guardian.guard import (
-    FAILED,
-    FOLLOWING,
-    LATCHED,
-    MOVES_ON,
-    NEUTRAL,
-    NOT_ARMED,
-    Guard,
-    Move,
-    Order,
-    Rest,
-)
+from mindrun.robot.guardian.guard import FAILED, FOLLOWING, LATCHED, MOVES_ON, NEUTRAL, NOT_ARMED, REST, Guard, Order
 from mindrun.robot.guardian.messages import FrameError, Reader
 from mindrun.robot.guardian.plan import Channel, Plan
 from mindrun.robot.processes import end_in_child
@@ -154,10 +143,8 @@ class ActuatorOutput:
 
     def _close(self) -> None:
         device, self._device = self._device, None
-        if device is not None:
-            with suppress(BaseException):  # whatever its driver raises: it is of no use any more
-                device.close()
-            end_in_child(self._process)
+        discard(device)
+        end_in_child(self._process)
 
     def _run(self) -> None:
         pause = MIN_RETRY_SECONDS
@@ -291,7 +278,7 @@ class Process:
         if is_lost and (self.guard.state == FOLLOWING or output.name not in self._lost):
             self._lost.add(output.name)
             said = f"{output.name} {FAILED}: {output.error or SILENT}"
-            if self.guard.failed(output.name, output.error or SILENT):
+            if self.guard.failed(output.name, output.error or SILENT) == REST:
                 self.rest()
                 said = self.guard.why
             self._report(f"all actuators to neutral, but {output.name} may still move: {said}")
@@ -309,14 +296,13 @@ class Process:
         return device
 
     def _obey(self, order: Order) -> None:
-        match order:
-            case Move(values):
-                for output, value in zip(self.outputs, values, strict=True):
-                    output.move(value)
-            case Rest():
-                self.rest()
-                if self.guard.why != NOT_ARMED:  # the controller has said why
-                    self._report(f"all actuators to neutral: {self.guard.why}")
+        if order == REST:
+            self.rest()
+            if self.guard.why != NOT_ARMED:  # the controller has said why
+                self._report(f"all actuators to neutral: {self.guard.why}")
+        elif order:
+            for output, value in zip(self.outputs, order, strict=True):
+                output.move(value)
 
     @property
     def at_rest(self) -> list[str]:
