@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, nullcontext, suppress
 from dataclasses import replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from time import monotonic, sleep
 
 from mindrun.driver import DeviceError
@@ -23,7 +24,7 @@ from mindrun.graph.measured import measured_in_world
 from mindrun.graph.tasks import default_task
 from mindrun.graph.wiring import Wiring, known_sensors, read_by, reckoned, still
 from mindrun.robot.drivers.mock import MockActuator
-from mindrun.robot.dry_run import DryRun, SeenWorld, beginning, outcome, refuse_environment, simulated_wiring
+from mindrun.robot.dry_run import DryRun, SeenWorld, beginning, outcome, simulated_wiring
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
 from mindrun.robot.live_view import breakpoint_mistakes, live_view
@@ -31,7 +32,7 @@ from mindrun.robot.loop import Loop, Rate, TickResult
 from mindrun.robot.orders import Orders, with_orders
 from mindrun.robot.ownership import hold_devices, is_adopted
 from mindrun.robot.processes import StopSignals, refuse_success, stopping
-from mindrun.robot.recording import About, Recorder, TemporaryRecorder, temporary_recording
+from mindrun.robot.recording import About, Recorder, TemporaryRecorder
 from mindrun.robot.sensing import ReadingFilter, Sampler
 from mindrun.robot.servos import reckoned_servos
 from mindrun.robot.simulated_world import simulated, status
@@ -92,9 +93,9 @@ def _wired(options: argparse.Namespace, bundle: Bundle, line: StatusLine, orders
 
 def _dry(options: argparse.Namespace, bundle: Bundle, line: StatusLine, orders: Orders) -> Loop:
     task, why = _task(bundle.graph, options.task)
-    refuse_environment(task)
     master = options.master or bundle.graph.master
-    for sentence in (*filter(None, [why]), *beginning(bundle.graph, task, master, options.seed)):
+    begins = beginning(bundle.graph, task, master, options.seed)
+    for sentence in (*filter(None, [why]), *begins):
         line.tell(sentence)
     with simulated(options.bundle, task.name, options.seed, options.master or "") as socket:
         seen = SeenWorld(task, options.seed, socket) if options.record or options.view else None
@@ -135,14 +136,9 @@ def _print_error(sentence: str) -> None:
 
 
 def drive(
-    bundle: Bundle,
-    wiring: Wiring,
-    options: argparse.Namespace,
-    tell: Callable[[str], None],
-    held: Sequence[int] = (),
-    watch: Callable[[Loop], bool] = lambda loop: True,
-    world: SeenWorld | None = None,
-) -> Loop:
+    bundle: Bundle, wiring: Wiring, options: argparse.Namespace, tell: Callable[[str], None], held: Sequence[int] = (),
+    watch: Callable[[Loop], bool] = lambda loop: True, world: SeenWorld | None = None,
+) -> Loop:  # fmt: skip
     """Run a mind on a robot until a signal comes or the ticks are over; the loop as it ended.
 
     `tell` gets sentences for people; the guardian inherits the descriptors `held`; `watch` sees the loop after each
@@ -151,7 +147,9 @@ def drive(
     """
     graph, master = bundle.graph, options.master or bundle.graph.master
     engine = Engine(bundle.policy, bundle.procedures, options.master)
-    sensors = _sensors(wiring, graph, master)
+    sensors = known_sensors(wiring, graph)
+    if missing := read_by(graph, master) - {*sensors}:
+        raise MindError(f"{master} reads {', '.join(sorted(missing))}, which is not wired", "add it to robot.yaml")
     plan = plan_of(graph.tick, {actuator.name: actuator.kind.neutral for actuator in graph.actuators}, wiring)
     servos = reckoned_servos(wiring, graph, plan)
     with ExitStack() as stack:
@@ -162,10 +160,15 @@ def drive(
         samplers = stack.enter_context(_sampling(wiring))
         guardian = stack.enter_context(Guardian(plan, inherited=held))
         senses = ReadingFilter(graph, sorted((*samplers, *servos), key=lambda each: sensors.index(each.wire.sensor)))
-        loop = Loop(engine, senses, guardian, Rate(graph.tick), options.arm, recorder, tell, servos=servos)
         promises = PromiseWatcher(graph, master)
-        loop.promises, loop.stops_on_broken = promises if promises.promises else None, wiring.on_broken == "neutral"
-        _wait(samplers, guardian, loop, stop)
+        loop = Loop(
+            engine, senses, guardian, Rate(graph.tick), options.arm, recorder, tell, servos=servos,
+            promises=promises if promises.promises else None, stops_on_broken=wiring.on_broken == "neutral",
+        )  # fmt: skip
+        until = monotonic() + FIRST_READING_SECONDS
+        while monotonic() < until and not stop and not all(sampler.latest for sampler in samplers):
+            guardian.send(loop.neutral.tolist(), False)
+            sleep(loop.pace.tick)
         notify("READY=1")
         try:
             if not stop:
@@ -173,14 +176,6 @@ def drive(
         finally:
             stop.in_order()
         return loop
-
-
-def _sensors(wiring: Wiring, graph: Graph, master: str) -> tuple[str, ...]:
-    """The sensors that are wired or reckoned; MindError where the master reads others."""
-    sensors = known_sensors(wiring, graph)
-    if missing := read_by(graph, master) - {*sensors}:
-        raise MindError(f"{master} reads {', '.join(sorted(missing))}, which is not wired", "add it to robot.yaml")
-    return sensors
 
 
 @contextmanager
@@ -192,7 +187,9 @@ def _recording(
         yield None
         return
     with ExitStack() as stack:
-        path = options.record or stack.enter_context(temporary_recording(tell))
+        if not (path := options.record):
+            path = Path(stack.enter_context(TemporaryDirectory(prefix="mind-"))) / "live.rec"
+            tell("recorded for the view alone, and deleted at the end: --record FILE keeps it")
         recorder = stack.enter_context(_recorder(path, about, world, None if options.record else tell))
         if options.view:
             told = _print_error if options.quiet else tell
@@ -220,14 +217,6 @@ def _goes_on(tick: TickResult, ticks: int, stop: StopSignals) -> bool:
     notify("WATCHDOG=1")
     stop.hear()
     return not stop and (not ticks or tick.number + 1 < ticks)
-
-
-def _wait(samplers: list[Sampler], guardian: Guardian, loop: Loop, stop: StopSignals) -> None:
-    """Wait until every sensor has been measured once, or for some seconds; send unarmed frames meanwhile."""
-    until = monotonic() + FIRST_READING_SECONDS
-    while monotonic() < until and not stop and not all(sampler.latest for sampler in samplers):
-        guardian.send(loop.neutral.tolist(), False)
-        sleep(loop.pace.tick)
 
 
 @contextmanager

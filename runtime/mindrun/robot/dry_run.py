@@ -51,15 +51,14 @@ def simulated_wiring(graph: Graph, path: str, master: str) -> Wiring:
     )
 
 
-def refuse_environment(task: Task) -> None:
-    """MindError where no world of a task can be simulated beside the robot."""
+def beginning(graph: Graph, task: Task, master: str, seed: int) -> list[str]:
+    """Sentences before a run: what is run, in which world, that nothing real moves, and what ends it.
+
+    MindError where no world of the task can be simulated beside the robot.
+    """
     if name := task.scene.environment:
         said = f"there is no dry run of {task.name}, which is in the environment {name}"
         raise MindError(said, "mindc run and mindc view step it, from the source of this bundle")
-
-
-def beginning(graph: Graph, task: Task, master: str, seed: int) -> list[str]:
-    """Sentences before a run: what is run, in which world, that nothing real moves, and what ends it."""
     scene, seconds = task.scene, task.ticks * graph.tick
     size = f"of {' x '.join(f'{side:g}' for side in scene.sides)}" if scene.is_bounded else "without walls"
     things = list(dict.fromkeys(thing.name for thing in task.things))

@@ -6,8 +6,8 @@ All other actuators are at neutral meanwhile, and so is this one in between; the
 import os
 import sys
 from collections import deque
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable
+from contextlib import ExitStack
 from dataclasses import dataclass, field, replace
 from math import ceil
 from select import select
@@ -76,6 +76,11 @@ def least_shares(
     `send` sends a command and lasts a tick. MindError where it does not move.
     """
     found = {}
+
+    def moves(command: float) -> bool:
+        send(command)
+        return witness.moves()
+
     for way, end in (("forward", 1.0), ("backward", 0.0)):
         if end == neutral:
             continue
@@ -84,7 +89,8 @@ def least_shares(
             witness.rest()
         for step in range(1, round(MOST_SHARE / STEP_SHARE) + 1):
             tell(f"{way} {step * STEP_SHARE:.0%}")
-            if _moves_at(neutral + step * STEP_SHARE * (end - neutral), tick, send, witness):
+            command = neutral + step * STEP_SHARE * (end - neutral)
+            if any(moves(command) for _ in range(ceil(STEP_SECONDS / tick))):
                 found[way] = step * STEP_SHARE
                 break
         else:
@@ -94,31 +100,28 @@ def least_shares(
     return found
 
 
-def _moves_at(command: float, tick: float, send: Callable[[float], None], witness: Witness) -> bool:
-    for _ in range(ceil(STEP_SECONDS / tick)):
-        send(command)
-        if witness.moves():
-            return True
-    return False
-
-
 def measured_least(
     graph: Graph, wiring: Wiring, name: str, eye: SensorWire | None, tell: Callable[[str], None]
 ) -> dict[str, float]:
     """The `least_shares` of an actuator of the robot; `eye` is a sensor that sees it, beside who presses Enter."""
-    place = [actuator.name for actuator in graph.actuators].index(name)
-    commands = [actuator.kind.neutral for actuator in graph.actuators]
-    neutral, pace = commands[place], Rate(graph.tick)
-    with _moving(graph, wiring, name) as (guardian, stop), ExitStack() as stack:
+    neutrals = {actuator.name: actuator.kind.neutral for actuator in graph.actuators}
+    commands, neutral, pace = {**neutrals}, neutrals[name], Rate(graph.tick)
+    wires = (replace(wire, least=0.0) if wire.actuator == name else wire for wire in wiring.actuators)
+    plan = plan_of(graph.tick, neutrals, replace(wiring, actuators=tuple(wires)))
+    with ExitStack() as stack:
+        stop = stack.enter_context(stopping(GRACE_SECONDS))
+        held = stack.enter_context(hold_devices(wiring))
+        guardian = stack.enter_context(Guardian(plan, inherited=held))
+        stack.callback(stop.in_order)
 
         def send(command: float) -> None:
-            if stop():
+            if stop:
                 raise KeyboardInterrupt
             if command != neutral and guardian.holds:
                 raise MindError(f"the guardian holds every actuator at neutral: {guardian.holds}")
-            commands[place] = command
+            commands[name] = command
             pace.wait()
-            guardian.send(commands, True)
+            guardian.send(commands.values(), True)
 
         witness = Witness(_enter_pressed if eye is None or sys.stdin.isatty() else None)
         if eye:
@@ -128,19 +131,6 @@ def measured_least(
             witness.latest = lambda: sampler.latest
         pace.begin()
         return least_shares(neutral, graph.tick, send, witness, tell)
-
-
-@contextmanager
-def _moving(graph: Graph, wiring: Wiring, name: str) -> Iterator[tuple[Guardian, Callable[[], bool]]]:
-    """A guardian of the robot, for which an actuator has no `least`, and whether a signal has come."""
-    neutrals = {actuator.name: actuator.kind.neutral for actuator in graph.actuators}
-    wires = (replace(wire, least=0.0) if wire.actuator == name else wire for wire in wiring.actuators)
-    plan = plan_of(graph.tick, neutrals, replace(wiring, actuators=tuple(wires)))
-    with stopping(GRACE_SECONDS) as stop, hold_devices(wiring) as held, Guardian(plan, inherited=held) as guardian:
-        try:
-            yield guardian, lambda: bool(stop)
-        finally:
-            stop.in_order()
 
 
 def _enter_pressed() -> bool:

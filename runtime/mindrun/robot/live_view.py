@@ -24,12 +24,13 @@ MAX_LINE_CHARACTERS = 4096
 SERVER_ADDRESS = 2  # of the words of SSH_CONNECTION: client, its port, server, its port
 VIEWER_NICENESS = 10
 END_SECONDS = 1.0  # for a viewer that was killed: one that waits for a disk ends later, by itself
+MINDC = "from mindlang.cli import main; main()"
 PROGRAM = (
     "import signal, sys; from mindrun.robot.processes import end_with_parent; "
     "from mindrun.processors import give_way; "
-    f"end_with_parent(int(sys.argv.pop(1)), signal.SIGKILL); give_way({VIEWER_NICENESS}); "
-    "from mindlang.cli import main; main()"
+    f"end_with_parent(int(sys.argv.pop(1)), signal.SIGKILL); give_way({VIEWER_NICENESS}); {MINDC}"
 )
+CODE = "-P", "-c"  # -P: a file of the user's folder that is named like a module must not be imported
 
 
 @contextmanager
@@ -89,21 +90,15 @@ def _heard(viewer: "subprocess.Popen[str]", tell: Callable[[str], None]) -> Iter
 
 def _begin(recording: Path, bundle: Path, port: int | None, breaks: Path | None) -> "subprocess.Popen[str]":
     """The viewer. It ends with the thread that calls this."""
-    # -P: a file of the user's folder that is named like a module must not be imported.
-    words = [sys.executable, "-P", "-c", PROGRAM, str(os.getpid()), "view", "--follow", "--no-browser", "-q"]
+    words = [sys.executable, *CODE, PROGRAM, str(os.getpid()), "view", "--follow", "--no-browser", "-q"]
     if port:
         words += ["--port", str(port)]
     if breaks:
         words += ["--break", str(breaks)]
-    return subprocess.Popen(
-        [*words, "--", str(recording.absolute()), str(bundle)],
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        errors="replace",
-        start_new_session=True,  # Ctrl-C is the robot's
-    )
+    return subprocess.Popen(  # in a session of its own: Ctrl-C is the robot's
+        [*words, "--", str(recording.absolute()), str(bundle)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True,
+    )  # fmt: skip
 
 
 def _listen(viewer: "subprocess.Popen[str]", ending: Event, tell: Callable[[str], None]) -> None:
@@ -144,16 +139,8 @@ def breakpoint_mistakes(breaks: Path, bundle: Path, task: str | None, master: st
         if path.suffix != suffix:
             return [f"{path} must end in {suffix}: mindc knows by that what it is"]
     options = [*(("--task", task) if task else ()), *(("--master", master) if master else ())]
-    # -P: a file of the user's folder that is named like a module must not be imported.
-    command = [sys.executable, "-P", "-c", "from mindlang.cli import main; main()", "check", *options]
-    done = subprocess.run(
-        [*command, "--", str(breaks), str(bundle)],
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        errors="replace",
-        check=False,
-    )
+    command = [sys.executable, *CODE, MINDC, "check", *options, "--", str(breaks), str(bundle)]
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
     if not done.returncode:
         return []
     return (done.stderr.rstrip() or f"{breaks} cannot be looked at: mindc ended with {done.returncode}").split("\n")

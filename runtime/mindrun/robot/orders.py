@@ -23,6 +23,7 @@ from mindrun.errors import MindError, nearest, reason
 from mindrun.files.printable import visible
 from mindrun.graph.graph import Graph, Sensor
 from mindrun.graph.wiring import SensorWire, Wiring
+from mindrun.robot.driver_support import OpenSensor
 from mindrun.robot.drivers.simulated import VALUE
 from mindrun.robot.order_client import ADDRESS, DONE, MAX_ORDER_BYTES, REFUSED
 from mindrun.robot.processes import keep_from_children, keep_no_longer
@@ -188,37 +189,27 @@ class OrderDriver:
     unit = ""
     usual = (0.0, 1.0)
 
-    def open(self) -> "OrderDevice":
-        """The device, which is always there."""
-        return OrderDevice(self, WorldConnection(self.world) if self.world else None)
+    def open(self) -> OpenSensor:
+        """The order, which is always there."""
+        if not self.world:
+            return OpenSensor(self._now, lambda: None)
+        link, told = WorldConnection(self.world), list[float]()
+        return OpenSensor(lambda: self._now_in_world(link, told), link.close)
 
+    def _now(self) -> tuple[float, ...]:
+        kind, value = self.orders.kinds[self.name], self.orders.now(self.name)
+        return tuple(kind.readings(kind.neutral if value is None else value))
 
-@dataclass(slots=True)
-class OrderDevice:
-    """An order that is read."""
-
-    driver: OrderDriver
-    link: WorldConnection | None
-    told: float | None = None  # to the world
-
-    def read(self) -> tuple[float, ...]:
-        """The readings of the order that counts now."""
-        name, orders = self.driver.name, self.driver.orders
-        value = orders.now(name)
-        if self.link is None:
-            kind = orders.kinds[name]
-            return tuple(kind.readings(kind.neutral if value is None else value))
-        if value is not None and value != self.told:
-            self.link.ask(WRITE, name, value)
-            self.told = value
-        held = self.link.ask(READ, name)
-        if len(held) != self.driver.readings * VALUE.size:
+    def _now_in_world(self, link: WorldConnection, told: list[float]) -> tuple[float, ...]:
+        """The readings there, which is `told` an order that is new."""
+        value = self.orders.now(self.name)
+        if value is not None and told[-1:] != [value]:
+            link.ask(WRITE, self.name, value)
+            told[:] = [value]
+        held = link.ask(READ, self.name)
+        if len(held) != self.readings * VALUE.size:
             raise DeviceError("the simulated world has another mind")
         return tuple(value for (value,) in VALUE.iter_unpack(held))
-
-    def close(self) -> None:
-        if self.link:
-            self.link.close()
 
 
 def with_orders(wiring: Wiring, graph: Graph, measured: Iterable[Sensor], orders: Orders, world: str = "") -> Wiring:

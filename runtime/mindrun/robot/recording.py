@@ -8,11 +8,10 @@ import errno
 import os
 import zlib
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import AbstractContextManager, contextmanager, suppress
+from contextlib import AbstractContextManager, suppress
 from itertools import chain
 from pathlib import Path
 from queue import SimpleQueue
-from tempfile import TemporaryDirectory
 from threading import Event, Thread
 from typing import Any, BinaryIO
 
@@ -46,7 +45,8 @@ class BackgroundFile:
 
     def write(self, data: bytes) -> None:
         """Leave bytes to the thread; returns at once."""
-        self._raise_failure()
+        if self._failure:
+            raise self._failure
         if self._given - self._taken > MAX_WAITING_BYTES:
             raise OSError(errno.ETIMEDOUT, os.strerror(errno.ETIMEDOUT))
         self._given += len(data)
@@ -57,7 +57,8 @@ class BackgroundFile:
         written = Event()
         self._queue.put(written)
         written.wait()
-        self._raise_failure()
+        if self._failure:
+            raise self._failure
 
     def fileno(self) -> int:
         return self._file.fileno()
@@ -68,10 +69,6 @@ class BackgroundFile:
         self._writing.join()
         with suppress(OSError):
             self._file.close()
-
-    def _raise_failure(self) -> None:
-        if self._failure:
-            raise self._failure
 
     def _run(self) -> None:
         while (item := self._queue.get()) is not None:
@@ -139,14 +136,6 @@ class Recorder(AbstractContextManager["Recorder"]):
 
     def __exit__(self, *error: object) -> None:
         self.close()
-
-
-@contextmanager
-def temporary_recording(tell: Callable[[str], None]) -> Iterator[Path]:
-    """A path for a recording that is there for a viewer alone, and goes away at the end."""
-    with TemporaryDirectory(prefix="mind-") as folder:
-        tell("recorded for the view alone, and deleted at the end: --record FILE keeps it")
-        yield Path(folder) / "live.rec"
 
 
 class TemporaryRecorder(Recorder):
