@@ -215,15 +215,10 @@ def _ask(code: DriverCode, noun: str, options: str | None) -> dict[str, Any]:
     question = json.dumps({"code": asdict(code), "noun": noun, "options": options})
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     try:
-        done = subprocess.run(
-            [sys.executable, "-P", "-m", driver_inspection.__name__],
-            input=question.encode(),
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            timeout=ANSWER_SECONDS,
-            env=environment,
-            start_new_session=True,  # Ctrl-C is for who asks
-        )
+        done = subprocess.run(  # in a session of its own: Ctrl-C is for who asks
+            [sys.executable, "-P", "-m", driver_inspection.__name__], input=question.encode(), stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL, timeout=ANSWER_SECONDS, env=environment, start_new_session=True,
+        )  # fmt: skip
         answer: dict[str, Any] = json.loads(done.stdout, parse_constant=INFINITIES.__getitem__)
     except subprocess.TimeoutExpired as error:
         raise BrokenDriverError(f"{code.origin} has not been imported after {ANSWER_SECONDS:g} s", OUTSIDE) from error

@@ -41,20 +41,15 @@ def robot_yaml(graph: Graph, name: str) -> tuple[str, int]:
     """The text for a mind called so, and how many values are to be filled in: what has none is a mistake of `build`."""
     read = read_by(graph, graph.master)
     sensors = [part for each, part in physical(graph).items() if each in read]
-    parts = [_part("sensor", SENSORS, each, each.width) for each in sensors if each.kind.needs_driver]
-    parts += [_reckoned(each) for each in sensors if each.kind.tells_servo]
-    moved = [_part("actuator", ACTUATORS, each, 1) for each in graph.actuators]
+    wired = [_lines("sensor", SENSORS, each, each.width) for each in sensors if each.kind.needs_driver]
+    parts = ["".join(f"  {line}\n" for line in lines) for lines in wired]
+    for each in (each for each in sensors if each.kind.tells_servo):
+        said = f"is reckoned from what {each.kind.servo} is sent; a driver here would measure it"
+        parts.append(f"  # {each.name} {said}\n")
+    driven = (_lines("actuator", ACTUATORS, each, 1) for each in graph.actuators)
+    moved = ["".join(f"  {line}\n" for line in lines) for lines in driven]
     text = wiring_file(re.sub(r"[^\w .-]", "_", name), "\n".join(parts), "\n".join(moved))
     return text, sum(line.split("#")[0].rstrip().endswith(":") and "#" in line for line in text.splitlines())
-
-
-def _part(noun: str, usual: Mapping[str, tuple[str, ...]], part: Sensor | Actuator, width: int) -> str:
-    return "".join(f"  {line}\n" for line in _lines(noun, usual, part, width))
-
-
-def _reckoned(part: Sensor) -> str:
-    said = f"is reckoned from what {part.kind.servo} is sent; a driver here would measure it"
-    return f"  # {part.name} {said}\n"
 
 
 def _lines(noun: str, usual: Mapping[str, tuple[str, ...]], part: Sensor | Actuator, width: int) -> Iterator[str]:

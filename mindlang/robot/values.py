@@ -25,17 +25,14 @@ def value(option: DriverOption, node: Node, findings: Findings) -> Any:
             return number(node, quantity, findings)
         case "numbers", Quantity() as quantity:
             return _numbers(node, quantity, option.count, findings)
-        case "word", Reference() as reference:
-            return word(node, reference, findings)
-        case "flag", _:
-            if isinstance(node, Scalar) and node.plain and node.text in ("true", "false"):
-                return node.text == "true"
-            hint = "Write true or false, without quotes."
-            _refuse(node, "not-a-switch", "Here stands true or false.", hint, findings)
-            return None
         case "texts" | "words", Reference() as reference:
             return _words(node, reference, option.count, findings)
-    return text(node, findings)
+        case "word" | "text", Reference() as reference:
+            return word(node, reference, findings)
+    if isinstance(node, Scalar) and node.plain and node.text in ("true", "false"):
+        return node.text == "true"
+    _refuse(node, "not-a-switch", "Here stands true or false.", "Write true or false, without quotes.", findings)
+    return None
 
 
 def number(node: Node, quantity: Quantity, findings: Findings) -> float | int | None:
@@ -84,9 +81,7 @@ def _words(node: Node, reference: Reference, count: int | None, findings: Findin
         hint = f"Write {wanted} between brackets: [a, b]."
         _refuse(node, "not-a-list", "A list stands here.", hint, findings)
         return None
-    if reference.words:
-        return _all([word(item, reference, findings) for item in node.items])
-    return _all([text(item, findings) for item in node.items])
+    return _all([word(item, reference, findings) for item in node.items])
 
 
 def _all(found: list[Any]) -> tuple[Any, ...] | None:
@@ -95,8 +90,10 @@ def _all(found: list[Any]) -> tuple[Any, ...] | None:
 
 
 def word(node: Node, reference: Reference, findings: Findings) -> str | None:
-    """One of a few words."""
+    """One of a few words, or any text where the reference has none."""
     noun, words = reference.noun, reference.words
+    if not words:
+        return text(node, findings)
     if not isinstance(node, Scalar):
         _refuse(node, "not-a-word", f"Here stands a {noun}.", f"It is {listed(words)}.", findings)
         return None

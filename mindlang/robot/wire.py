@@ -3,9 +3,8 @@
 Every sensor and actuator that is written is checked, and one that the mind needs and that is missing is an error.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Set
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass, replace
-from functools import partial
 from math import isclose, tau
 from pathlib import Path
 from typing import Any, TypeVar
@@ -47,7 +46,6 @@ UNITS = {
 FULL_TURNS = {"deg": 360.0, "°": 360.0, "rad": tau}  # once round, by the unit of a driver
 TURN_TOLERANCE = 1e-6
 P = TypeVar("P", Sensor, Actuator)
-W = TypeVar("W", SensorWire, ActuatorWire)
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,10 +94,10 @@ def _wiring(node: Node, graph: Graph, unit_metres: float | None, findings: Findi
     own = physical(graph)
     needed = {name for name in read_by(graph, graph.master) if own[name].kind.needs_driver}
     moved = {actuator.name: actuator for actuator in graph.actuators}  # all of them, since each has a neutral
-    wire_of = partial(sensor_wire, unit_metres=unit_metres, findings=findings)
-    sensing = list(_section("sensor", said.get("sensors"), own, needed, graph, wire_of, findings))
-    acting_wire_of = partial(actuator_wire, findings=findings)
-    acting = list(_section("actuator", said.get("actuators"), moved, moved.keys(), graph, acting_wire_of, findings))
+    measured = _section("sensor", said.get("sensors"), own, needed, graph, findings)
+    sensing = [(wired, sensor_wire(wired, sensor, unit_metres, findings)) for wired, sensor in measured]
+    driven = _section("actuator", said.get("actuators"), moved, moved.keys(), graph, findings)
+    acting = [(wired, actuator_wire(wired, actuator, findings)) for wired, actuator in driven]
     check_claims([wired for wired, _ in (*sensing, *acting)], findings)
     check_shared(sensing, acting, graph.tick, findings)
     entry = said.get("robot")
@@ -123,15 +121,9 @@ def _reaction(entry: TableEntry | None, graph: Graph, findings: Findings) -> str
 
 
 def _section(
-    noun: str,
-    entry: TableEntry | None,
-    known: Mapping[str, P],
-    needed: Set[str],
-    graph: Graph,
-    wire: Callable[[Wired, P], W | None],
-    findings: Findings,
-) -> Iterator[tuple[Wired, W | None]]:
-    """The drivers of sensors or actuators in the order of the mind, each with its wire, None where that is wrong."""
+    noun: str, entry: TableEntry | None, known: Mapping[str, P], needed: Set[str], graph: Graph, findings: Findings
+) -> Iterator[tuple[Wired, P]]:
+    """The drivers of sensors or actuators in the order of the mind, each with what it wires."""
     if entry is None:
         return
     value = entry.value
@@ -155,7 +147,7 @@ def _section(
         each = node.entries[name]
         inner = None if is_empty(each, findings) else table(each.value, shortened(name), example, findings)
         if inner and (found := wired(noun, each.key, inner, findings)):
-            yield found, wire(found, known[name])
+            yield found, known[name]
 
 
 def _refuse_stranger(noun: str, key: Scalar, known: Mapping[str, Any], graph: Graph, findings: Findings) -> None:
@@ -248,10 +240,11 @@ def _end(wired: Wired, index: int, usual: tuple[float, float], findings: Finding
 
 def _check_readings(wired: Wired, sensor: Sensor, findings: Findings) -> None:
     """Report a driver that has not one value for each reading, or not as many pins in a list."""
-    count, name = wired.driver.readings, wired.name.text
+    count = wired.driver.readings
     lists = [option.key for option in wired.options if option.shape == "numbers"]
+    of_mind = f"{sensor.width} reading{'s' * (sensor.width != 1)}"
     if count != sensor.width:
-        message = f"The mind's {name} has {_count_readings(sensor.width)}, and this driver {count}."
+        message = f"The mind's {wired.name.text} has {of_mind}, and this driver {count}."
         hint = "Take another driver, or wire another sensor to it."
         if lists:
             hint = f"List {sensor.width} in {lists[0]}: one for each."
@@ -260,13 +253,9 @@ def _check_readings(wired: Wired, sensor: Sensor, findings: Findings) -> None:
     for option in wired.options:
         entry, pins = wired.entry(option.key), wired.values[option.field]
         if option.type == PIN and entry and isinstance(pins, tuple) and len(pins) != count:
-            message = f"{option.key} has {len(pins)} pin{'s' * (len(pins) != 1)}, for {_count_readings(count)}."
+            message = f"{option.key} has {len(pins)} pin{'s' * (len(pins) != 1)}, for {of_mind}."
             hint = f"List {count}, in the order of the readings."
             findings.error("wrong-count", first_line(entry.value.span), message, hint)
-
-
-def _count_readings(count: int) -> str:
-    return f"{count} reading{'s' * (count != 1)}"
 
 
 def _check_range(wired: Wired, wire: SensorWire, sensor: Sensor, findings: Findings) -> None:

@@ -14,7 +14,7 @@ from itertools import count
 from math import isnan
 from typing import Any
 
-from mindrun.cli import driving_parser, run_tool, tools
+from mindrun.cli import driving_parser, tool_parser, tools
 from mindrun.engine.engine import Engine
 from mindrun.errors import MindError, ProcedureError, ReadingsError, surroundings
 from mindrun.files.printable import visible
@@ -71,7 +71,10 @@ def _command() -> int:
         raise MindError(flaw, "write something there, or leave it out")
     if words[:1] == [WORK]:
         raise MindError(f"there is no mindrun {WORK} any more", INSTEAD_OF_WORK)
-    return run_tool(words[0], words[1:]) if words and words[0] in tools() else run(driving_parser().parse_args())
+    if words and words[0] in tools():
+        options = tool_parser(words[0]).parse_args(words[1:])
+        return int(options.run(options))
+    return run(driving_parser().parse_args())
 
 
 def run(options: argparse.Namespace) -> int:

@@ -69,8 +69,14 @@ def text_of(error: BaseException) -> str:
 def surroundings(error: Exception) -> str:
     """A sentence for errors of the machine, of files and of the installation, about which a user can do something."""
     match error:
+        case OSError() if error.filename is not None:
+            return f"{error.strerror}: {error.filename}"
         case OSError():
-            return _of_system(error)
+            try:
+                os.getcwd()  # noqa: PTH109
+            except OSError:
+                return "the folder in which this was started is gone"
+            return reason(error)
         case MemoryError():
             return "there is not enough memory for this" + (f" ({error})" if str(error) else "")
         case RecursionError():
@@ -82,16 +88,6 @@ def surroundings(error: Exception) -> str:
         case RuntimeError() if "thread" in str(error):
             return f"the system gives no more threads ({error})"
     return ""
-
-
-def _of_system(error: OSError) -> str:
-    if error.filename is not None:
-        return f"{error.strerror}: {error.filename}"
-    try:
-        os.getcwd()  # noqa: PTH109
-    except OSError:
-        return "the folder in which this was started is gone"
-    return reason(error)
 
 
 def nearest(word: str, known: Iterable[str]) -> str | None:

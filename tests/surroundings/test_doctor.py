@@ -5,7 +5,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import pytest
-from mindrun.cli import doctor, run_tool
+from mindrun.cli import doctor, tool_parser
 from mindrun.sim import cache, warmup
 
 from mindlang import diagnosis, physics_check
@@ -136,7 +136,7 @@ def test_on_a_robot_nothing_that_is_absent_is_ok(
 ) -> None:
     monkeypatch.setattr(doctor, "find_spec", lambda name: None if name == "lgpio" else object())
     monkeypatch.setattr(doctor, "Path", lambda _: Path("/nowhere"))
-    assert run_tool("doctor", ["--json"]) == 0
+    assert doctor.run(tool_parser("doctor").parse_args(["--json"])) == 0
     found = {each["what"]: each["state"] for each in json.loads(capsysbinary.readouterr().out)["checks"]}
     assert found["lgpio"] == "absent"
     assert found["/nowhere/video0"] == "absent"

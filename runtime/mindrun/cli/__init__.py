@@ -93,10 +93,3 @@ def _filled(text: str) -> str:
     """The paragraphs of a text in lines for a terminal."""
     parts = text.strip().split("\n\n")
     return "\n\n".join(part if part.startswith(EXAMPLES) else fill(part, LINE_COLUMNS) for part in parts)
-
-
-def run_tool(name: str, words: list[str]) -> int:
-    """Run a tool with these words of the command line; its exit code."""
-    options = tool_parser(name).parse_args(words)
-    code: int = options.run(options)
-    return code

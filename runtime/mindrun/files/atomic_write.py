@@ -45,7 +45,11 @@ def exchange(path: Path, data: bytes, was: bytes | None) -> None:
     """
     beside = write_beside(path, data)
     try:
-        if _start(path, len(was or b"") + 1) != was:  # looked at as late as can be
+        try:
+            now = read_regular(path, len(was or b"") + 1)  # looked at as late as can be
+        except FileNotFoundError:
+            now = None
+        if now != was:
             raise OSError(errno.ESTALE, "it has been changed meanwhile", str(path))
         beside.replace(path)
     except BaseException:
@@ -125,10 +129,3 @@ def _mode(path: Path) -> int | None:
     if not stat.S_ISREG(mode):
         raise irregular(path, mode)
     return mode & 0o7777
-
-
-def _start(path: Path, most: int) -> bytes | None:
-    try:
-        return read_regular(path, most)
-    except FileNotFoundError:
-        return None

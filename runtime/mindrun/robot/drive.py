@@ -28,7 +28,7 @@ from mindrun.robot.dry_run import DryRun, SeenWorld, beginning, outcome, simulat
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
 from mindrun.robot.live_view import breakpoint_mistakes, live_view
-from mindrun.robot.loop import Loop, Rate, TickResult
+from mindrun.robot.loop import Loop, Rate
 from mindrun.robot.orders import Orders, with_orders
 from mindrun.robot.ownership import hold_devices, is_adopted
 from mindrun.robot.processes import StopSignals, refuse_success, stopping
@@ -172,7 +172,10 @@ def drive(
         notify("READY=1")
         try:
             if not stop:
-                loop.run(lambda tick: _goes_on(tick, options.ticks, stop) and watch(loop))
+                loop.pace.begin()
+                loop.tick()
+                while _goes_on(loop, options.ticks, stop) and watch(loop):
+                    loop.tick()
         finally:
             stop.in_order()
         return loop
@@ -213,10 +216,10 @@ def _recorder(path: Path, about: About, world: SeenWorld | None, tell: Callable[
         raise MindError(f"{path} cannot be written: {error.strerror}") from error
 
 
-def _goes_on(tick: TickResult, ticks: int, stop: StopSignals) -> bool:
+def _goes_on(loop: Loop, ticks: int, stop: StopSignals) -> bool:
     notify("WATCHDOG=1")
     stop.hear()
-    return not stop and (not ticks or tick.number + 1 < ticks)
+    return not stop and (not ticks or loop.ticks < ticks)
 
 
 @contextmanager

@@ -14,7 +14,7 @@ from mindrun.graph.recording_header import BY_LOOP, NOT_STOPPED, by_guardian
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.guard import failing
 from mindrun.robot.recording import Recorder
-from mindrun.robot.sensing import FilteredReadings, ReadingFilter
+from mindrun.robot.sensing import ReadingFilter
 from mindrun.robot.servos import ReckonedServo
 from mindrun.terminal.tick_count import ticks as in_words
 
@@ -32,7 +32,6 @@ class Rate:
     sleep: Callable[[float], None] = sleep
     ticks: int = 0
     missed: int = 0
-    latest: float = 0.0
     counts: NDArray[np.int64] = field(default_factory=lambda: np.zeros(LATENESS_BINS, np.int64))
     _due: float = 0.0
 
@@ -50,7 +49,6 @@ class Rate:
         skipped = int(late / self.tick)
         self.missed += skipped
         self.ticks += 1
-        self.latest = max(self.latest, late)
         self.counts[min(LATENESS_BINS - 1, int(late / self.tick * 100))] += 1
         self._due += (skipped + 1) * self.tick
         return now
@@ -68,22 +66,6 @@ class Rate:
         half, most = self.late(0.5) * 1e3, self.late(0.99) * 1e3
         kept = f"{in_words(self.ticks)} of {self.tick * 1e3:.1f} ms, {self.missed} missed"
         return f"{kept}; half began within {half:.1f} ms, 99 % within {most:.1f} ms of their time"
-
-
-@dataclass(frozen=True, slots=True)
-class TickResult:
-    """The result of one tick; `sent` is neutral where `stopped`, and obeyed unless the guardian `held` all at neutral.
-
-    `held` is why it did, as it had said when the tick was sent.
-    """
-
-    number: int
-    time: float
-    sensed: FilteredReadings
-    commands: NDArray[np.float32]
-    sent: NDArray[np.float32]
-    stopped: bool
-    held: str = ""
 
 
 @dataclass(slots=True)
@@ -112,14 +94,8 @@ class Loop:
     broken: set[int] = field(default_factory=set)
     servos: Sequence[ReckonedServo] = ()
 
-    def run(self, goes_on: Callable[[TickResult], bool]) -> None:
-        """Tick until `goes_on` says no; MindError where the mind or the guardian fails."""
-        self.pace.begin()
-        while goes_on(self.tick()):
-            pass
-
-    def tick(self) -> TickResult:
-        """Wait until a tick is due, and do it."""
+    def tick(self) -> None:
+        """Wait until a tick is due, and do it; MindError where the mind or the guardian fails."""
         missed = self.pace.missed
         time = self.pace.wait()
         behind = self.pace.missed - missed >= MISSED_TICKS_LIMIT
@@ -138,21 +114,22 @@ class Loop:
         stopped = sensed.must_stop or behind or too_old or must_stop
         sent = self.neutral if stopped else commands
         self.guardian.send(sent.tolist(), self.armed and not stopped)  # unarmed, neutral is not slowed down by slew
-        held = self.guardian.holds if self.armed and not stopped else ""
+        held = self.guardian.holds if self.armed and not stopped else ""  # as it had said when the tick was sent
         for servo in self.servos:
             servo.turn(float(sent[servo.place]) if self.armed and not stopped and not held else None)
-        done = TickResult(self.ticks, time, sensed, commands, sent, stopped, held)
         if self.recorder:
-            self._record(self.recorder, done)
+            self.recorder.write(
+                tick=self.ticks, time=time, stopped=self._stopped_by(stopped, held), armed=self.armed,
+                faults=sensed.faults, ages=sensed.ages, readings=self._measured(), influence=self.engine.influence,
+                commands=commands, sent=sent,
+            )  # fmt: skip
         self.ticks += 1
         self.stopped += stopped
         self.held.update([held] * bool(held))
-        return done
 
     def _broken(self, promises: PromiseWatcher) -> bool:
         """Tell of a promise that is broken in this tick, and again once it has held; True where one stops the robot."""
-        readings = np.where(self.senses.measured, self.engine.readings, np.float32(np.nan))
-        judged = promises.feed(readings[None], self.engine.influence[None])[0]
+        judged = promises.feed(self._measured()[None], self.engine.influence[None])[0]
         must_stop = False
         for place, (skill, promise) in enumerate(promises.promises):
             if (verdict := judged[place]) == HELD:
@@ -170,12 +147,11 @@ class Loop:
         """The neutral command of each actuator."""
         return np.array([actuator.kind.neutral for actuator in self.engine.graph.actuators], np.float32)
 
-    def _record(self, recorder: Recorder, done: TickResult) -> None:
-        stopped_by = BY_LOOP if done.stopped else NOT_STOPPED
-        if done.held:
-            stopped_by = by_guardian(failing(done.held, [actuator.name for actuator in self.engine.graph.actuators]))
-        recorder.write(
-            tick=done.number, time=done.time, stopped=stopped_by, armed=self.armed, faults=done.sensed.faults,
-            ages=done.sensed.ages, readings=np.where(self.senses.measured, self.engine.readings, np.float32(np.nan)),
-            influence=self.engine.influence, commands=done.commands, sent=done.sent,
-        )  # fmt: skip
+    def _measured(self) -> NDArray[np.float32]:
+        """The readings of the engine, without those that nothing measures."""
+        return np.where(self.senses.measured, self.engine.readings, np.float32(np.nan))
+
+    def _stopped_by(self, stopped: bool, held: str) -> int:
+        if held:
+            return by_guardian(failing(held, [actuator.name for actuator in self.engine.graph.actuators]))
+        return BY_LOOP if stopped else NOT_STOPPED

@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
 from math import isfinite
-from struct import Struct
 from threading import Thread, current_thread, main_thread
 from time import monotonic, sleep
 from typing import Any
@@ -26,11 +25,11 @@ from mindrun.graph.wiring import SensorWire, Wiring
 from mindrun.robot.driver_support import OpenSensor
 from mindrun.robot.drivers.simulated import VALUE
 from mindrun.robot.order_client import ADDRESS, DONE, MAX_ORDER_BYTES, REFUSED
+from mindrun.robot.ownership import PEER
 from mindrun.robot.processes import keep_from_children, keep_no_longer
 from mindrun.robot.simulated_world import READ, WRITE, WorldConnection
 from mindrun.terminal.arguments import shortened
 
-PEER = Struct("3i")  # process, user, group
 PASS_CREDENTIALS, CREDENTIALS = getattr(socket, "SO_PASSCRED", 16), getattr(socket, "SCM_CREDENTIALS", 2)
 PAUSE_SECONDS = 0.0005  # after each order: whoever sends too many waits, and not the loop
 BACKGROUND_SECONDS = 1.0  # after which a program in the background of its terminal looks whether it may read

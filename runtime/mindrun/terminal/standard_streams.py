@@ -165,16 +165,18 @@ def finish() -> str:
 
 def document(text: str) -> None:
     """Print what programs read: it is UTF-8, whatever the terminal is."""
-    sys.stdout.flush()
-    sys.stdout.buffer.write(text.encode("utf-8", "backslashreplace"))
-    sys.stdout.buffer.flush()
+    _write(sys.stdout, text, "utf-8")
 
 
 def draw(text: str) -> None:
     """Write control characters to a terminal: back to the beginning of the line, say."""
-    sys.stderr.flush()
-    sys.stderr.buffer.write(text.encode(sys.stderr.encoding, "backslashreplace"))
-    sys.stderr.buffer.flush()
+    _write(sys.stderr, text, sys.stderr.encoding)
+
+
+def _write(stream: TextIO, text: str, encoding: str) -> None:
+    stream.flush()
+    stream.buffer.write(text.encode(encoding, "backslashreplace"))
+    stream.buffer.flush()
 
 
 @contextmanager

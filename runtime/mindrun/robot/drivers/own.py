@@ -77,9 +77,18 @@ def load_class(code: DriverCode) -> Any:
 
     DeviceError where it is not the code that was meant; AttributeError where it has no such name; whatever it raises.
     """
-    if code.package:
-        return _package_class(code)
-    return getattr(module_of(code), code.name.split(".")[1])
+    if not code.package:
+        return getattr(module_of(code), code.name.split(".")[1])
+    found = _offered(code.name)
+    if found is None:
+        install = f"pip install '{code.package.replace(' ', '==')}'"
+        raise DeviceError(f"{code.package} is not installed, or has no driver {code.name}", install)
+    package, entry = found
+    if _package_digest(entry) != code.digest:
+        here = f"{package.name} {package.version}"
+        raise DeviceError(f"{here} is installed, and its code is not that of {code.package} in the bundle", REBUILD)
+    with _loading:
+        return entry.load()
 
 
 def module_of(code: DriverCode) -> ModuleType:
@@ -96,19 +105,6 @@ def module_of(code: DriverCode) -> ModuleType:
             del sys.modules[name]
             raise
         return module
-
-
-def _package_class(code: DriverCode) -> Any:
-    found = _offered(code.name)
-    if found is None:
-        install = f"pip install '{code.package.replace(' ', '==')}'"
-        raise DeviceError(f"{code.package} is not installed, or has no driver {code.name}", install)
-    package, entry = found
-    if _package_digest(entry) != code.digest:
-        here = f"{package.name} {package.version}"
-        raise DeviceError(f"{here} is installed, and its code is not that of {code.package} in the bundle", REBUILD)
-    with _loading:
-        return entry.load()
 
 
 def _offered(name: str) -> tuple[Distribution, EntryPoint] | None:

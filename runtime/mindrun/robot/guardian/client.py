@@ -63,7 +63,13 @@ class Processes:
             self._kill()
             self._start_others()
         self.is_replaced = True  # not before: a signal may have interrupted it, and then it is tried again
-        return self._outcome()
+        if heard.rests:
+            return "it has ended, with every actuator at neutral"
+        moving = [name for name in self._names if name not in heard.at_rest]
+        if not moving:
+            return "another has brought the actuators to neutral"
+        at_rest = [name for name in self._names if name in heard.at_rest]
+        return f"{', '.join(moving)} may still move; at neutral: {', '.join(at_rest) or 'none'}"
 
     def end(self, seconds: float) -> None:
         """Wait for the guardian, which has no more to do, to end; kill it where that takes longer."""
@@ -112,15 +118,6 @@ class Processes:
         assert process.stdout
         os.set_blocking(process.stdout.fileno(), False)
         return process
-
-    def _outcome(self) -> str:
-        at_rest = [name for name in self._names if self.heard.rests or name in self.heard.at_rest]
-        moving = [name for name in self._names if name not in at_rest]
-        if self.heard.rests:
-            return "it has ended, with every actuator at neutral"
-        if not moving:
-            return "another has brought the actuators to neutral"
-        return f"{', '.join(moving)} may still move; at neutral: {', '.join(at_rest) or 'none'}"
 
 
 class GuardianError(MindError):
