@@ -129,6 +129,14 @@ class Ranging:
     possible = usual
 
 
+class Shares:
+    """The common part of drivers of sensors whose values are shares already, from 0 to 1."""
+
+    __slots__ = ()
+    unit = ""
+    usual = possible = (0.0, 1.0)
+
+
 Part = tuple[str, str, Mapping[str, Any]]  # an object of gpiozero: its name in messages, its class, its arguments
 
 

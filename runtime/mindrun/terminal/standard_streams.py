@@ -67,16 +67,13 @@ class LineWriter(RawIOBase):
                 self._change.notify_all()
                 self._change.wait_for(lambda: self._waiting)
                 data, self._idle = self._waiting.popleft(), False
-            self._say(data)
-
-    def _say(self, data: bytes) -> None:
-        while data:
-            try:
-                data = data[os.write(self._descriptor, data) :]
-            except BlockingIOError:  # another program has left it not blocking
-                select([], [self._descriptor], [])
-            except (OSError, ValueError):  # nobody listens, or the disk is full: perhaps not for ever
-                return
+            while data:
+                try:
+                    data = data[os.write(self._descriptor, data) :]
+                except BlockingIOError:  # another program has left it not blocking
+                    select([], [self._descriptor], [])
+                except (OSError, ValueError):  # nobody listens, or the disk is full: perhaps not for ever
+                    break
 
 
 class Stream(FileIO):

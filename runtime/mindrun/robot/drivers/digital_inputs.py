@@ -3,7 +3,7 @@
 from typing import Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.robot.driver_support import PIN, PULL, SWITCH, OpenSensor, Pull, open_inputs
+from mindrun.robot.driver_support import PIN, PULL, SWITCH, OpenSensor, Pull, Shares, open_inputs
 
 
 def digital_inputs(what: str, numbers: tuple[int, ...], **options: Any) -> OpenSensor:
@@ -13,7 +13,7 @@ def digital_inputs(what: str, numbers: tuple[int, ...], **options: Any) -> OpenS
 
 
 @kind("sensor driver", "switch")
-class Switch:
+class Switch(Shares):
     """A switch or a bumper: 1 while it is closed, else 0; for a range finder `from: 1` and `to: 0`.
 
     It connects `pin` (a GPIO number) to ground; with `pull` "down", to 3.3 V.
@@ -22,10 +22,7 @@ class Switch:
     pin: Annotated[int, PIN]
     pull: Annotated[Pull, PULL] = "up"
 
-    unit = ""
     readings = 1
-    usual = (0.0, 1.0)
-    possible = (0.0, 1.0)
     near = 1.0
 
     def open(self) -> OpenSensor:
@@ -33,7 +30,7 @@ class Switch:
 
 
 @kind("sensor driver", "bumper")
-class Bumper:
+class Bumper(Shares):
     """The switches of a bumper, for a sensor `bumper` or `contact`: of each 1 while it is touched, else 0.
 
     `pins` lists their GPIO numbers in the order of the sensor's sectors. Each connects its pin to ground when it is
@@ -43,9 +40,6 @@ class Bumper:
     pins: Annotated[tuple[int, ...], PIN]
     pull: Annotated[Pull, PULL] = "up"
 
-    unit = ""
-    usual = (0.0, 1.0)
-    possible = (0.0, 1.0)
     near = 1.0
 
     @property
@@ -57,7 +51,7 @@ class Bumper:
 
 
 @kind("sensor driver", "line_sensor")
-class LineSensor:
+class LineSensor(Shares):
     """Digital line sensors (TCRT5000, QRE1113 with a comparator), for a sensor `floor`: 1 above a dark floor, else 0.
 
     `pins` lists their GPIO numbers in the order of the sensor's points. Most pins are at 3.3 V above a dark
@@ -67,10 +61,6 @@ class LineSensor:
 
     pins: Annotated[tuple[int, ...], PIN]
     inverted: Annotated[bool, SWITCH] = False
-
-    unit = ""
-    usual = (0.0, 1.0)
-    possible = (0.0, 1.0)
 
     @property
     def readings(self) -> int:

@@ -4,13 +4,13 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import CHIP, OpenSensor, open_inputs
+from mindrun.robot.driver_support import CHIP, OpenSensor, Shares, open_inputs
 
 INPUT = Quantity("an input", {"": 1.0}, low=0, high=7, whole=True)
 
 
 @kind("sensor driver", "mcp3008")
-class Mcp3008:
+class Mcp3008(Shares):
     """Analogue sensors (of `light`, of the `floor`) on an MCP3008: voltages as shares of its reference, 3.3 V.
 
     `inputs` lists them in the order of the sensor's readings. A light sensor is an LDR from 3.3 V to the input and
@@ -21,10 +21,6 @@ class Mcp3008:
 
     inputs: Annotated[tuple[int, ...], INPUT]
     chip: Annotated[int, CHIP] = 0
-
-    unit = ""
-    usual = (0.0, 1.0)
-    possible = (0.0, 1.0)
 
     @property
     def readings(self) -> int:

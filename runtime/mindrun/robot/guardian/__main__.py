@@ -12,12 +12,12 @@ from mindrun.robot.guardian.messages import OVER, REST, say
 from mindrun.robot.guardian.plan import MAX_PLAN_BYTES, Plan, from_json, read_plan
 from mindrun.robot.guardian.process import Process
 from mindrun.robot.guardian.realtime import printing_never_waits, set_realtime, wake_on_signals
-from mindrun.robot.guardian.watch import ERROR_DESCRIPTOR, report, rescue, watch
+from mindrun.robot.guardian.watch import report, rescue, watch
 from mindrun.terminal.arguments import parser
-from mindrun.terminal.standard_streams import LineWriter
+from mindrun.terminal.standard_streams import ERROR_DESCRIPTOR, OUTPUT_DESCRIPTOR, LineWriter
 
 OK, FAILED, USAGE, UNAVAILABLE, BROKEN = 0, 1, 64, 69, 70  # as in sysexits.h
-INPUT_DESCRIPTOR, OUTPUT_DESCRIPTOR = 0, 1
+INPUT_DESCRIPTOR = 0
 NOBODY = -1  # in place of a descriptor
 
 
@@ -40,7 +40,11 @@ def _done(status: int, neutral: str, seconds: float) -> int:
     """Guard, or bring the actuators of a bundle or plan to neutral once, in so many seconds; the exit code."""
     is_heard = neutral in ("", "-")
     try:
-        plan = _plan() if is_heard else read_plan(Path(neutral))
+        if is_heard:  # the plan is the first line: what follows are frames
+            with open(INPUT_DESCRIPTOR, "rb", buffering=0, closefd=False) as file:
+                plan = from_json(file.readline(MAX_PLAN_BYTES))
+        else:
+            plan = read_plan(Path(neutral))
     except MindError as error:
         say(status, "failed", " ".join(str(error).split()))
         report(str(error))
@@ -104,12 +108,6 @@ def _guarded(plan: Plan, status: int) -> int:
         return code
 
     return watch(plan, frames, status, work)
-
-
-def _plan() -> Plan:
-    """The plan on standard input, up to the end of the first line: what follows are frames."""
-    with open(INPUT_DESCRIPTOR, "rb", buffering=0, closefd=False) as file:
-        return from_json(file.readline(MAX_PLAN_BYTES))
 
 
 if __name__ == "__main__":

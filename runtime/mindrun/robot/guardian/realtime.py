@@ -11,12 +11,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from mindrun.terminal.standard_streams import LineWriter
+from mindrun.terminal.standard_streams import ERROR_DESCRIPTOR, OUTPUT_DESCRIPTOR, LineWriter
 
 FIFO_PRIORITY = 20
 LOCK_ALL_MEMORY = 1 | 2  # MCL_CURRENT | MCL_FUTURE
 STACK_BYTES = 256 << 10  # for each thread: locked memory is not for stacks that nobody uses
-OUTPUT_DESCRIPTOR, ERROR_DESCRIPTOR = 1, 2
 PIECE_BYTES, LAST_SECONDS = 1 << 16, 0.3  # that are read at once; for what is left in the end
 IGNORED_SIGNALS = ("SIGINT", "SIGTSTP", "SIGTTIN", "SIGTTOU", "SIGPIPE", "SIGUSR1", "SIGUSR2", "SIGALRM")
 ENDING_SIGNALS = ("SIGTERM", "SIGHUP", "SIGQUIT")

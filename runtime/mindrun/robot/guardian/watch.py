@@ -16,13 +16,12 @@ from mindrun.robot.guardian.plan import Channel, Plan
 from mindrun.robot.guardian.process import Process
 from mindrun.robot.guardian.realtime import ENDING_SIGNALS, IGNORED_SIGNALS, ignore, wake_on_signals
 from mindrun.robot.processes import end_with_parent
-from mindrun.terminal.standard_streams import LineWriter
+from mindrun.terminal.standard_streams import ERROR_DESCRIPTOR, LineWriter
 
 RESCUE_SECONDS = 5.0
 MAX_TRIES = 3  # of an actuator: processes that end without a word
 RETRY_SECONDS = 0.05  # between two tries to open what could not be
 GRACE_SECONDS = 0.3  # in which a process that gives up says why
-ERROR_DESCRIPTOR = 2
 
 
 def watch(plan: Plan, frames: int, status: int, work: Callable[[int], int]) -> int:
