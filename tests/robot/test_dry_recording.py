@@ -14,7 +14,7 @@ import pytest
 from mindrun.engine.engine import Engine
 from mindrun.graph.bundle import Bundle, write_bundle
 from mindrun.graph.policy import Policy
-from mindrun.robot.dry_run import MAX_END_TICKS, DryRun, SeenWorld
+from mindrun.robot.dry_run import MAX_END_TICKS, DryRun
 from mindrun.robot.recording import read
 from mindrun.robot.replay import replay_recording
 from mindrun.robot.world_server import SimulatedScene, WorldServer, listening
@@ -103,17 +103,14 @@ def test_a_run_whose_recording_never_gets_the_end_ends(rules: Path) -> None:
     assert graph
     world = CommandedWorld(graph, "Roam", 3)
     with served(SimulatedScene(world)) as path:
-        seen = SeenWorld(world.task, 3, path)
         loop, line = SimpleNamespace(engine=Engine(Policy(graph, {}))), StatusLine(lambda sentence: None)
-        recorded, plain = (
-            DryRun(graph, world.task, "Roam", path, line, seen),
-            DryRun(graph, world.task, "Roam", path, line),
-        )
+        recorded, plain = (DryRun(graph, world.task, "Roam", path, line, seed) for seed in (3, None))
         recorded._is_over = plain._is_over = True
         assert [recorded.watch(loop) for _ in range(MAX_END_TICKS + 2)] == [True] * MAX_END_TICKS + [False] * 2  # type: ignore[arg-type]
         assert not plain.watch(loop)  # type: ignore[arg-type]
-        with seen.watched():
-            pass
+        for run in (recorded, plain):
+            with run.shown():
+                pass
 
 
 def test_a_recorder_waits_for_no_world(rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -124,17 +121,23 @@ def test_a_recorder_waits_for_no_world(rules: Path, monkeypatch: pytest.MonkeyPa
     world = CommandedWorld(graph, "Roam", 3)
     scene = Hesitant(world)
     with served(scene) as path:
-        seen = SeenWorld(world.task, 3, path)
-        first = list(world.pose)
+        seen = DryRun(graph, world.task, "Roam", path, StatusLine(lambda sentence: None), 3)
+        loop, first = SimpleNamespace(engine=Engine(Policy(graph, {}))), list(world.pose)
+        assert seen.about
         assert (seen.about.begin[:3], seen.about.things) == (tuple(first), 1)
-        with seen.watched():
+
+        def recorded() -> list[float]:
+            seen.watch(loop)  # type: ignore[arg-type]
+            return list(seen.latest()["pose"][0])
+
+        with seen.shown():
             scene.answers.clear()
-            assert all(seen.latest()["pose"][0].tolist() == first for _ in range(1000))
+            assert all(recorded() == first for _ in range(1000))
             for _ in range(10):
                 world.step([1.0, 0.0])
             scene.answers.set()
             end = monotonic() + PATIENCE
-            while seen.latest()["pose"][0].tolist() != list(world.pose):
+            while recorded() != list(world.pose):
                 assert monotonic() < end
                 sleep(0.01)
             assert not seen.has_ended
@@ -142,7 +145,7 @@ def test_a_recorder_waits_for_no_world(rules: Path, monkeypatch: pytest.MonkeyPa
                 world.step([1.0, 0.0])
             while not seen.has_ended:
                 assert monotonic() < end
-                seen.latest()
+                recorded()
                 sleep(0.01)
     assert list(world.pose) != first
 

@@ -8,7 +8,7 @@ import os
 import socket
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager, nullcontext, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -24,7 +24,7 @@ from mindrun.graph.measured import measured_in_world
 from mindrun.graph.tasks import default_task
 from mindrun.graph.wiring import Wiring, known_sensors, read_by, reckoned, still
 from mindrun.robot.drivers.mock import MockActuator
-from mindrun.robot.dry_run import DryRun, SeenWorld, beginning, outcome, simulated_wiring
+from mindrun.robot.dry_run import DryRun, beginning, outcome, simulated_wiring
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
 from mindrun.robot.live_view import breakpoint_mistakes, live_view
@@ -98,12 +98,12 @@ def _dry(options: argparse.Namespace, bundle: Bundle, line: StatusLine, orders: 
     for sentence in (*filter(None, [why]), *begins):
         line.tell(sentence)
     with simulated(options.bundle, task.name, options.seed, options.master or "") as socket:
-        seen = SeenWorld(task, options.seed, socket) if options.record or options.view else None
-        run = DryRun(bundle.graph, task, master, socket, line, seen)
+        seed = options.seed if options.record or options.view else None
+        run = DryRun(bundle.graph, task, master, socket, line, seed)
         measured, wiring = measured_in_world(bundle.graph, master, task), simulated_wiring(bundle.graph, socket, master)
         wiring = with_orders(wiring, bundle.graph, measured, orders, socket)
-        with run.shown(), seen.watched() if seen else nullcontext():
-            loop = drive(bundle, wiring, options, line.tell, watch=run.watch, world=seen)
+        with run.shown():
+            loop = drive(bundle, wiring, options, line.tell, watch=run.watch, world=run)
         with suppress(DeviceError):  # the run was as good without it
             for sentence in outcome(task, master, status(socket)):
                 line.tell(sentence)
@@ -137,7 +137,7 @@ def _print_error(sentence: str) -> None:
 
 def drive(
     bundle: Bundle, wiring: Wiring, options: argparse.Namespace, tell: Callable[[str], None], held: Sequence[int] = (),
-    watch: Callable[[Loop], bool] = lambda loop: True, world: SeenWorld | None = None,
+    watch: Callable[[Loop], bool] = lambda loop: True, world: DryRun | None = None,
 ) -> Loop:  # fmt: skip
     """Run a mind on a robot until a signal comes or the ticks are over; the loop as it ended.
 
@@ -183,7 +183,7 @@ def drive(
 
 @contextmanager
 def _recording(
-    options: argparse.Namespace, about: About, world: SeenWorld | None, tell: Callable[[str], None]
+    options: argparse.Namespace, about: About, world: DryRun | None, tell: Callable[[str], None]
 ) -> Iterator[Recorder | None]:
     """Record, if that is wished for, and show the page of the recording, if there is one; its address is told."""
     if not options.record and not options.view:
@@ -200,7 +200,7 @@ def _recording(
         yield recorder
 
 
-def _recorder(path: Path, about: About, world: SeenWorld | None, tell: Callable[[str], None] | None) -> Recorder:
+def _recorder(path: Path, about: About, world: DryRun | None, tell: Callable[[str], None] | None) -> Recorder:
     """The recorder that is wished for, or a temporary one, which tells where it cannot write any more.
 
     MindError where it would write over something, or cannot write.

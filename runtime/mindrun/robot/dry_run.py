@@ -75,20 +75,28 @@ def beginning(graph: Graph, task: Task, master: str, seed: int) -> list[str]:
 class DryRun:
     """Says on a status line how a run in the world at a socket stands, and tells the world the mind's memories.
 
-    The loop only leaves influence and readings of its last tick here: it waits neither for the world nor for a
-    terminal, which threads do.
+    With the `seed` of that world it has its state for a recording: `about` as it was first, `latest` as a tick ago. The
+    loop only leaves influence and readings of its last tick here: it waits neither for the world nor for a terminal,
+    which threads do.
     """
 
     def __init__(
-        self, graph: Graph, task: Task, master: str, socket: str, line: StatusLine, seen: "SeenWorld | None" = None
+        self, graph: Graph, task: Task, master: str, socket: str, line: StatusLine, seed: int | None = None
     ) -> None:
-        self._graph, self._task, self._socket, self._line, self._seen = graph, task, socket, line, seen
+        self._graph, self._task, self._socket, self._line = graph, task, socket, line
         self._acting_skills = movers(graph, master) or driving(graph, master, range(len(graph.actuators)))
         self._influence: NDArray[np.float32] | None = None
         self._readings = np.zeros(graph.width, np.float32)
         self._is_over, self._end_ticks = False, 0
         self._lost: DeviceError | None = None
         self._stop, self._ticked = Event(), Event()
+        self._link, self._row = WorldConnection(socket), world_row_of(task)
+        self.about: RecordedWorld | None = None
+        if seed is not None:
+            self._latest = self._recorded = self._asked()
+            boxes = np.frombuffer(self._link.ask(BOXES), "<f8").reshape(-1, BOX_COLUMNS)
+            begin = [*self._latest["pose"][0], *self._latest["things"][0].ravel()]
+            self.about = RecordedWorld.of(task, seed, boxes, begin)
 
     def watch(self, loop: Loop) -> bool:
         """True if, after a tick, the run goes on or its recording waits for its end; DeviceError without a world."""
@@ -99,12 +107,22 @@ class DryRun:
         if not self._is_over:
             return True
         self._end_ticks += 1
-        return self._seen is not None and not self._seen.has_ended and self._end_ticks <= MAX_END_TICKS
+        return self.about is not None and not self.has_ended and self._end_ticks <= MAX_END_TICKS
+
+    def latest(self) -> NDArray[Any]:
+        """The row of the world [1] that was asked for when the loop had done its last tick. Never waits."""
+        self._recorded = self._latest
+        return self._recorded
+
+    @property
+    def has_ended(self) -> bool:
+        """True if the row that `latest` returned last says how the run has ended."""
+        return bool(self._recorded["ended"][0] != GOES_ON)
 
     @contextmanager
     def shown(self) -> Iterator[None]:
-        """Show how the run stands, and tell of memories, as long as this lasts."""
-        threads = [Thread(target=each, name="dry_run", daemon=True) for each in (self._show, self._tell)]
+        """Show how the run stands, and follow it, as long as this lasts."""
+        threads = [Thread(target=each, name="dry_run", daemon=True) for each in (self._show, self._follow)]
         for thread in threads:
             thread.start()
         try:
@@ -114,20 +132,29 @@ class DryRun:
             self._ticked.set()
             for thread in threads:
                 thread.join()
+            self._link.close()
             self._line.clear()
 
-    def _tell(self) -> None:
-        """Tell the world in each tick which of the memories have changed, for its rewards and ends."""
-        link, told = WorldConnection(self._socket), dict[str, float]()
-        while self._graph.memories and self._ticked.wait() and not self._stop.is_set():
+    def _follow(self) -> None:
+        """After each tick tell the world which memories have changed, for its rewards and ends, and ask how it is."""
+        told = dict[str, float]()
+        while (self._graph.memories or self.about) and self._ticked.wait() and not self._stop.is_set():
             self._ticked.clear()
             now = self._readings
             for name, value in ((each.name, float(now[each.start])) for each in self._graph.memories):
                 if told.get(name) != value:
                     with suppress(DeviceError):  # next time
-                        link.ask(WRITE, name, value)
+                        self._link.ask(WRITE, name, value)
                         told[name] = value
-        link.close()
+            if self.about:
+                with suppress(DeviceError):  # it answers next time; the loop says where it does not at all
+                    self._latest = self._asked()
+
+    def _asked(self) -> NDArray[Any]:
+        held = self._link.ask(WORLD)
+        if len(held) != self._row.itemsize:
+            raise DeviceError(f"the simulated world has {len(held)} bytes to be recorded, not {self._row.itemsize}")
+        return np.frombuffer(held, self._row)
 
     def _show(self) -> None:
         silent = 0
@@ -195,54 +222,3 @@ def _aligned(rows: Sequence[tuple[str, str]]) -> list[str]:
     """A line per row, the first column to the right."""
     width = max(len(first) for first, _ in rows)
     return [f"{first:>{width}}  {second}" for first, second in rows]
-
-
-class SeenWorld:
-    """The state of a simulated world, for a recording: `about` as it was first, `latest` when a thread asked last."""
-
-    def __init__(self, task: Task, seed: int, socket: str) -> None:
-        self._row, self._link = world_row_of(task), WorldConnection(socket)
-        self._latest = self._recorded = self._asked()
-        self._wanted, self._is_over = Event(), False
-        boxes = np.frombuffer(self._link.ask(BOXES), "<f8").reshape(-1, BOX_COLUMNS)
-        begin = [*self._latest["pose"][0], *self._latest["things"][0].ravel()]
-        self.about = RecordedWorld.of(task, seed, boxes, begin)
-
-    def latest(self) -> NDArray[Any]:
-        """The row of it [1] that was asked for when this was called last: a tick ago. Never waits.
-
-        The thread asks anew at once, while the loop has nothing to do until its next tick.
-        """
-        self._wanted.set()
-        self._recorded = self._latest
-        return self._recorded
-
-    @property
-    def has_ended(self) -> bool:
-        """True if the row that `latest` returned last says how the run has ended."""
-        return bool(self._recorded["ended"][0] != GOES_ON)
-
-    @contextmanager
-    def watched(self) -> Iterator[None]:
-        """Let the thread ask as long as this lasts."""
-        thread = Thread(target=self._watch, name="seen_world", daemon=True)
-        thread.start()
-        try:
-            yield
-        finally:
-            self._is_over = True
-            self._wanted.set()
-            thread.join()
-            self._link.close()
-
-    def _watch(self) -> None:
-        while self._wanted.wait() and not self._is_over:
-            self._wanted.clear()
-            with suppress(DeviceError):  # it answers next time; the loop says where it does not at all
-                self._latest = self._asked()
-
-    def _asked(self) -> NDArray[Any]:
-        held = self._link.ask(WORLD)
-        if len(held) != self._row.itemsize:
-            raise DeviceError(f"the simulated world has {len(held)} bytes to be recorded, not {self._row.itemsize}")
-        return np.frombuffer(held, self._row)
