@@ -90,8 +90,6 @@ def blindness(frame: Frame) -> str:
 def find_ball(frame: Frame, target: BallCamera) -> SeenBall | None:
     """The largest round thing that is bright and of the right colour, None where there is none."""
     height, width = frame.shape[:2]
-    if blindness(frame):
-        return None
     candidates = (blob for blob in blobs(frame, target) if blob.diameter >= LEAST_DIAMETER and blob.roundness > 0)
     best = max(candidates, key=lambda blob: blob.diameter, default=None)
     if best is None:

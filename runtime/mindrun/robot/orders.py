@@ -26,7 +26,7 @@ from mindrun.robot.driver_support import OpenSensor
 from mindrun.robot.drivers.simulated import VALUE
 from mindrun.robot.order_client import ADDRESS, DONE, MAX_ORDER_BYTES, REFUSED
 from mindrun.robot.ownership import PEER
-from mindrun.robot.processes import keep_from_children, keep_no_longer
+from mindrun.robot.processes import let_go_in_children
 from mindrun.robot.simulated_world import READ, WRITE, WorldConnection
 from mindrun.terminal.arguments import shortened
 
@@ -164,11 +164,11 @@ def _listening() -> Iterator[socket.socket]:
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as listener:
         listener.setsockopt(socket.SOL_SOCKET, PASS_CREDENTIALS, 1)
         listener.bind(f"{ADDRESS}{os.getpid()}")
-        keep_from_children(listener.close)
+        let_go_in_children.add(listener.close)
         try:
             yield listener
         finally:
-            keep_no_longer(listener.close)
+            let_go_in_children.discard(listener.close)
             with suppress(OSError):
                 listener.shutdown(socket.SHUT_RDWR)
 

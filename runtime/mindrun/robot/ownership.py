@@ -22,7 +22,7 @@ from mindrun.files.regular_files import read_regular
 from mindrun.graph.bundle import fingerprint
 from mindrun.graph.graph import Graph
 from mindrun.graph.wiring import Wiring
-from mindrun.robot.processes import keep_from_children, keep_no_longer
+from mindrun.robot.processes import let_go_in_children
 
 MAX_IDENTITY_BYTES = 4096  # of what a robot says
 PREFIX = b"\0mind "  # an address that begins with a zero is in no folder
@@ -108,11 +108,11 @@ def bound_address(what: str) -> Iterator[int]:
     def close() -> None:
         os.close(descriptor)
 
-    keep_from_children(close)
+    let_go_in_children.add(close)
     try:
         yield descriptor
     finally:
-        keep_no_longer(close)
+        let_go_in_children.discard(close)
         close()
 
 

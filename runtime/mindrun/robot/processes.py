@@ -16,7 +16,7 @@ INTERRUPTED = 130
 MAX_INTERRUPTIONS = 5  # to interrupt what hangs, or to end in order, before the process is ended as it is
 MESSAGE = "mindrun: a driver or a procedure has ended this process"
 
-_let_go: set[Callable[[], None]] = set()
+let_go_in_children: set[Callable[[], None]] = set()  # is called in every process that is forked, and not in this one
 
 
 def end_with_parent(parent: int, by: signal.Signals) -> None:
@@ -33,19 +33,9 @@ def end_in_child(process: int) -> None:
         os._exit(FORKED_EXIT_CODE)
 
 
-def keep_from_children(let_go: Callable[[], None]) -> None:
-    """Call this in every process that is forked from now on, and do not in this one."""
-    _let_go.add(let_go)
-
-
-def keep_no_longer(let_go: Callable[[], None]) -> None:
-    """No longer call this in forked processes: the resource has been released."""
-    _let_go.discard(let_go)
-
-
 def _in_child() -> None:
-    while _let_go:
-        _let_go.pop()()
+    while let_go_in_children:
+        let_go_in_children.pop()()
 
 
 os.register_at_fork(after_in_child=_in_child)

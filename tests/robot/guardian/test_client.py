@@ -176,12 +176,12 @@ def test_one_that_is_never_ready_is_made_to_end(start: Start, monkeypatch: pytes
         begun.append(popen(*given, **named))
         return begun[-1]
 
-    before, popen = set(processes._let_go), subprocess.Popen
+    before, popen = set(processes.let_go_in_children), subprocess.Popen
     monkeypatch.setattr(subprocess, "Popen", begin)
     with pytest.raises(GuardianError) as caught:
         start("starting", then, patience=0.3)
     assert str(caught.value) == f"the guardian is not ready after 0.3 s; {BROUGHT[ALL]}"
-    assert processes._let_go == before
+    assert processes.let_go_in_children == before
     assert [process.wait(PATIENCE) for process in begun] == [-signal.SIGKILL, 1]
 
 
@@ -247,7 +247,7 @@ def test_one_that_has_said_that_all_rests_is_not_replaced(start: Start, tmp_path
         guardian.send(MOVING, armed=True)
     assert str(caught.value) == "the guardian is gone: it has ended, with every actuator at neutral"
     guardian.close()
-    assert guardian._processes.let_go not in processes._let_go
+    assert guardian._processes.let_go not in processes.let_go_in_children
     assert not (tmp_path / "log-neutral").exists()
 
 
@@ -279,7 +279,7 @@ def test_one_that_does_not_end_goes_on_alone(start: Start, tmp_path: Path) -> No
     assert str(caught.value) == f"an actuator is not at neutral after 0.3 s; process {guardian.pid} goes on trying"
     assert caught.value.hint == "cut the actuators' power"
     assert guardian._processes.first.poll() is None
-    assert guardian._processes.let_go not in processes._let_go
+    assert guardian._processes.let_go not in processes.let_go_in_children
 
 
 @pytest.mark.parametrize("ends", BROUGHT)

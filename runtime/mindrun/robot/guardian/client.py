@@ -16,7 +16,7 @@ from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, MOVES_ON, NEUTRAL, 
 from mindrun.robot.guardian.messages import Heard, pack
 from mindrun.robot.guardian.plan import Plan, to_json
 from mindrun.robot.guardian.watch import RESCUE_SECONDS
-from mindrun.robot.processes import end_in_child, keep_from_children, keep_no_longer
+from mindrun.robot.processes import end_in_child, let_go_in_children
 
 # -P: a file of the user's folder that is named like a module must not be imported.
 PROGRAM = (sys.executable, "-P", "-m", "mindrun.robot.guardian")
@@ -140,7 +140,7 @@ class Guardian(AbstractContextManager["Guardian"]):
         self._processes = Processes(plan, program, inherited)
         self._heard, self._frames = self._processes.heard, self._processes.input.fileno()
         self._read_at = monotonic()
-        keep_from_children(self._processes.let_go)
+        let_go_in_children.add(self._processes.let_go)
         try:
             self._start()
         except GuardianError as error:
@@ -286,4 +286,4 @@ class Guardian(AbstractContextManager["Guardian"]):
         if self._heard.rests or self._heard.has_ended or self._processes.is_replaced:
             self._processes.end(self._patience)
         self._processes.output.close()
-        keep_no_longer(self._processes.let_go)
+        let_go_in_children.discard(self._processes.let_go)
