@@ -47,6 +47,7 @@ def test_what_ends_the_process_is_no_success(bundle: Path, end: str, code: int) 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_each_signal_that_ends_programs_is_heard(number: signal.Signals) -> None:
     with stopping(600.0) as stop:
+        assert signal.getsignal(number) == stop.note
         os.kill(os.getpid(), number)
         assert stop
 

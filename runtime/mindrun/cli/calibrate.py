@@ -111,7 +111,9 @@ def _watched(wire: SensorWire, kind: SensorKind, seconds: float) -> list[Sample]
             latest = sampler.latest
             if latest and (not samples or latest is not samples[-1]):
                 samples.append(latest)
-                _show(wire, kind, latest)
+                values = ((raw, reading(wire, raw, kind.circular)) for raw in latest.values)
+                pairs = (f"{'-' if raw is None else f'{raw:.3g}'} → {value:.2f}" for raw, value in values)
+                _draw(latest.fault or "  ".join(pairs))
             sleep(0.2 / wire.rate)
     except KeyboardInterrupt:
         pass  # that is enough
@@ -119,12 +121,6 @@ def _watched(wire: SensorWire, kind: SensorKind, seconds: float) -> list[Sample]
         sampler.stop()
     _end_line()
     return samples
-
-
-def _show(wire: SensorWire, kind: SensorKind, sample: Sample) -> None:
-    values = ((raw, reading(wire, raw, kind.circular)) for raw in sample.values)
-    pairs = (f"{'-' if raw is None else f'{raw:.3g}'} → {value:.2f}" for raw, value in values)
-    _draw(sample.fault or "  ".join(pairs))
 
 
 def _draw(text: str) -> None:

@@ -56,13 +56,11 @@ class HBridge:
 
     def open(self) -> HBridgeDevice:
         """The motor, stopped."""
-        numbers = {"enable": self.enable, "forward": self.forward, "backward": self.backward}
-        there = {name: number for name, number in numbers.items() if number is not None}
-        parts = []
-        for name, number in there.items():
-            what = f"the H-bridge's {name} pin, GPIO {number},"
-            if name == "enable" or self.enable is None:
-                parts.append((what, "PWMOutputDevice", {"pin": number, "frequency": self.frequency}))
-            else:
-                parts.append((what, "OutputDevice", {"pin": number}))
-        return HBridgeDevice(**dict(zip(there, open_pins(*parts), strict=True)))
+        parts = {}
+        for name in ("enable", "forward", "backward"):
+            if (number := getattr(self, name)) is not None:
+                has_pulses = name == "enable" or self.enable is None
+                pulses = {"frequency": self.frequency} if has_pulses else {}
+                kind = "PWMOutputDevice" if has_pulses else "OutputDevice"
+                parts[name] = f"the H-bridge's {name} pin, GPIO {number},", kind, {"pin": number, **pulses}
+        return HBridgeDevice(**dict(zip(parts, open_pins(*parts.values()), strict=True)))
