@@ -93,7 +93,11 @@ def run(options: argparse.Namespace) -> int:
             engine = Engine(bundle.policy, bundle.procedures, options.master)
         _run(engine, options)
     elif options.dry or (bundle.wiring and not options.describe and not options.json):
-        return drive(options)
+        from mindrun.robot.drive import run as drive
+
+        standard_streams.detach_standard_error()
+        with redirect_stdout(sys.stderr):  # a procedure may print
+            return drive(options, bundle)
     elif options.arm or options.record or options.ticks or options.view or options.order:
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
     elif options.json:
@@ -101,15 +105,6 @@ def run(options: argparse.Namespace) -> int:
     else:
         print(describe(bundle))
     return OK
-
-
-def drive(options: argparse.Namespace) -> int:
-    """Drive the robot, or a simulated one."""
-    from mindrun.robot.drive import run as run_robot
-
-    standard_streams.detach_standard_error()
-    with redirect_stdout(sys.stderr):  # a procedure may print
-        return run_robot(options)
 
 
 def _run(engine: Engine, options: argparse.Namespace) -> None:

@@ -18,7 +18,7 @@ from mindrun.driver import DeviceError
 from mindrun.engine.engine import Engine
 from mindrun.engine.promises import PromiseWatcher
 from mindrun.errors import MindError
-from mindrun.graph.bundle import Bundle, digest, read_bundle
+from mindrun.graph.bundle import Bundle, digest
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.measured import measured_in_world
 from mindrun.graph.tasks import default_task
@@ -31,7 +31,7 @@ from mindrun.robot.live_view import breakpoint_mistakes, live_view
 from mindrun.robot.loop import Loop, Rate
 from mindrun.robot.orders import Orders, with_orders
 from mindrun.robot.ownership import hold_devices, is_adopted
-from mindrun.robot.processes import StopSignals, refuse_success, stopping
+from mindrun.robot.processes import refuse_success, stopping
 from mindrun.robot.recording import About, Recorder, TemporaryRecorder
 from mindrun.robot.sensing import ReadingFilter, Sampler
 from mindrun.robot.servos import reckoned_servos
@@ -44,9 +44,8 @@ STOP_SECONDS = 2.0  # or ticks where these are longer, in which a tick has to en
 CLOSE_SECONDS = 1.0  # for all sensors to be closed
 
 
-def run(options: argparse.Namespace) -> int:
-    """Drive until a signal comes; the exit code."""
-    bundle = read_bundle(options.bundle)
+def run(options: argparse.Namespace, bundle: Bundle) -> int:
+    """Drive until a signal comes; the exit code. A bundle without wiring can be driven dry alone."""
     line = StatusLine(lambda sentence: None, columns=lambda: None) if options.quiet else StatusLine(_print_error)
     _refuse_wrong_breakpoints(options, bundle.graph)
     wired = bundle.wiring.sensors if bundle.wiring and not options.dry else ()
@@ -73,9 +72,8 @@ def _refuse_wrong_breakpoints(options: argparse.Namespace, graph: Graph) -> None
 
 
 def _wired(options: argparse.Namespace, bundle: Bundle, line: StatusLine, orders: Orders) -> Loop:
-    if bundle.wiring is None:
-        raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
     wiring = bundle.wiring
+    assert wiring
     if not is_adopted(wiring, bundle.graph):
         remedy = f"if it is wired as this bundle has it: {command_line('mindrun', 'adopt', options.bundle)}"
         if options.arm:
@@ -142,8 +140,7 @@ def drive(
     """Run a mind on a robot until a signal comes or the ticks are over; the loop as it ended.
 
     `tell` gets sentences for people; the guardian inherits the descriptors `held`; `watch` sees the loop after each
-    tick, and says whether it goes on; `world` is that of a dry run, to be recorded. MindError where something fails;
-    then every actuator is at neutral, too.
+    tick, and says whether it goes on; `world` is that of a dry run. Where MindError is raised all is at neutral, too.
     """
     graph, master = bundle.graph, options.master or bundle.graph.master
     engine = Engine(bundle.policy, bundle.procedures, options.master)
@@ -160,24 +157,21 @@ def drive(
         samplers = stack.enter_context(_sampling(wiring))
         guardian = stack.enter_context(Guardian(plan, inherited=held))
         senses = ReadingFilter(graph, sorted((*samplers, *servos), key=lambda each: sensors.index(each.wire.sensor)))
-        promises = PromiseWatcher(graph, master)
         loop = Loop(
             engine, senses, guardian, Rate(graph.tick), options.arm, recorder, tell, servos=servos,
-            promises=promises if promises.promises else None, stops_on_broken=wiring.on_broken == "neutral",
+            promises=PromiseWatcher(graph, master), stops_on_broken=wiring.on_broken == "neutral",
         )  # fmt: skip
         until = monotonic() + FIRST_READING_SECONDS
         while monotonic() < until and not stop and not all(sampler.latest for sampler in samplers):
             guardian.send(loop.neutral.tolist(), False)
             sleep(loop.pace.tick)
         notify("READY=1")
-        try:
-            if not stop:
-                loop.pace.begin()
-                loop.tick()
-                while _goes_on(loop, options.ticks, stop) and watch(loop):
-                    loop.tick()
-        finally:
-            stop.in_order()
+        stack.callback(stop.in_order)
+        loop.pace.begin()
+        while not stop and (not options.ticks or loop.ticks < options.ticks) and (not loop.ticks or watch(loop)):
+            loop.tick()
+            notify("WATCHDOG=1")
+            stop.hear()
         return loop
 
 
@@ -185,41 +179,32 @@ def drive(
 def _recording(
     options: argparse.Namespace, about: About, world: DryRun | None, tell: Callable[[str], None]
 ) -> Iterator[Recorder | None]:
-    """Record, if that is wished for, and show the page of the recording, if there is one; its address is told."""
+    """Record, if that is wished for, and show the page of the recording, if there is one; its address is told.
+
+    MindError where it would write over something, or cannot write.
+    """
     if not options.record and not options.view:
         yield None
         return
+    latest = None
+    if world:
+        about, latest = replace(about, world=world.about), world.latest
     with ExitStack() as stack:
         if not (path := options.record):
             path = Path(stack.enter_context(TemporaryDirectory(prefix="mind-"))) / "live.rec"
             tell("recorded for the view alone, and deleted at the end: --record FILE keeps it")
-        recorder = stack.enter_context(_recorder(path, about, world, None if options.record else tell))
+        try:
+            is_kept = path == options.record
+            recorder = Recorder(path, about, world=latest) if is_kept else TemporaryRecorder(path, about, tell, latest)
+        except FileExistsError:
+            raise MindError(f"{path} exists already", "record to another file, or delete it") from None
+        except OSError as error:
+            raise MindError(f"{path} cannot be written: {error.strerror}") from error
+        stack.enter_context(recorder)
         if options.view:
             told = _print_error if options.quiet else tell
             stack.enter_context(live_view(path, options.bundle, options.view_port, told, options.breaks))
         yield recorder
-
-
-def _recorder(path: Path, about: About, world: DryRun | None, tell: Callable[[str], None] | None) -> Recorder:
-    """The recorder that is wished for, or a temporary one, which tells where it cannot write any more.
-
-    MindError where it would write over something, or cannot write.
-    """
-    latest = None
-    if world is not None:
-        about, latest = replace(about, world=world.about), world.latest
-    try:
-        return TemporaryRecorder(path, about, tell, world=latest) if tell else Recorder(path, about, world=latest)
-    except FileExistsError:
-        raise MindError(f"{path} exists already", "record to another file, or delete it") from None
-    except OSError as error:
-        raise MindError(f"{path} cannot be written: {error.strerror}") from error
-
-
-def _goes_on(loop: Loop, ticks: int, stop: StopSignals) -> bool:
-    notify("WATCHDOG=1")
-    stop.hear()
-    return not stop and (not ticks or loop.ticks < ticks)
 
 
 @contextmanager

@@ -110,7 +110,7 @@ class Loop:
         self.faulty = {*sensed.why}
         commands = self.engine.tick(sensed.readings)
         too_old = self.pace.clock() - time >= MAX_THINKING_TICKS * self.pace.tick  # to act on what was sensed then
-        must_stop = self._broken(self.promises) if self.promises else False
+        must_stop = self._broken(self.promises) if self.promises and self.promises.promises else False
         stopped = sensed.must_stop or behind or too_old or must_stop
         sent = self.neutral if stopped else commands
         self.guardian.send(sent.tolist(), self.armed and not stopped)  # unarmed, neutral is not slowed down by slew

@@ -141,8 +141,10 @@ class Recorder(AbstractContextManager["Recorder"]):
 class TemporaryRecorder(Recorder):
     """A recording that is no reason for a robot to stop: where it cannot be written, `tell` gets one sentence."""
 
-    def __init__(self, path: Path, about: About, tell: Callable[[str], None], **how: Any) -> None:
-        super().__init__(path, about, every=None, **how)  # it need not survive a power cut, and no card is worn by it
+    def __init__(
+        self, path: Path, about: About, tell: Callable[[str], None], world: Callable[[], NDArray[Any]] | None = None
+    ) -> None:
+        super().__init__(path, about, None, world)  # it need not survive a power cut, and no card is worn by it
         self._tell, self._has_failed = tell, False
 
     def write(self, **columns: Any) -> None:
