@@ -86,7 +86,7 @@ def check_steps(first: FakeRobot, folder: Path, bundles: Bundles, every: int) ->
 
 
 def test_a_few_steps(template: FakeRobot, tmp_path: Path, bundles: Bundles) -> None:
-    check_steps(template, tmp_path, bundles, 24)
+    check_steps(template, tmp_path, bundles, 36)
 
 
 def test_in_the_middle_of_copying(old: str, robot: FakeRobot, bundles: Bundles) -> None:
@@ -97,18 +97,15 @@ def test_in_the_middle_of_copying(old: str, robot: FakeRobot, bundles: Bundles) 
 
 
 def test_what_was_never_current_is_not_gone_back_to(old: str, robot: FakeRobot, bundles: Bundles, mindc: Call) -> None:
-    assert mindc("deploy", bundles[1], HOST, "--watch", 0).code == 0
-    robot.forget("steps")
     robot.tell("kill", "mv:1 after\n")  # what was accepted is a release now
-    assert deployed(robot, bundles[2]) != 0
+    assert deployed(robot, bundles[1]) != 0
     robot.forget("kill")
     robot.clean()
     states = [each["state"] for each in json.loads(mindc("deploy", HOST, "--list", "--json").out)["releases"]]
-    assert states == ["whole", "whole", "unused"]
+    assert states == ["whole", "unused"]
     assert mindc("deploy", bundles[2], HOST, "--watch", 0).code == 0
     assert mindc("deploy", HOST, "--rollback", "--watch", 0).code == 0
-    assert robot.master() == "Chase"
-    assert robot.releases()[0] == old
+    assert robot.current() == old
 
 
 @pytest.mark.slow
