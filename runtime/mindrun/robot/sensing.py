@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from math import inf, isfinite, nan
 from statistics import median
 from time import monotonic
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +20,6 @@ from mindrun.graph.graph import Graph, Sensor
 from mindrun.graph.measured import measured_on_robot, rows_of
 from mindrun.graph.wiring import SensorWire, reading, within_turn
 from mindrun.numbers.given_numbers import is_truth, number, values
-
-if TYPE_CHECKING:
-    from mindrun.robot.servos import ReckonedServo  # which has samples as well
 
 FINE, UNMEASURED, FAILED, STALE = range(4)  # the fault of a sensor in a tick
 
@@ -37,6 +34,15 @@ class Sample:
     values: tuple[float | None, ...]
     at: float
     fault: str = ""
+
+
+class SampleSource(Protocol):
+    """What has the samples of a sensor: its wire, and the newest of them."""
+
+    @property
+    def wire(self) -> SensorWire: ...
+    @property
+    def latest(self) -> Sample | None: ...
 
 
 class Sampler:
@@ -134,7 +140,7 @@ class FilteredReadings:
 class _State:
     """A sensor: its last samples for the median, and its last good readings with their time."""
 
-    source: "Sampler | ReckonedServo"
+    source: SampleSource
     sensor: Sensor
     window: deque[Sample]
     good: tuple[float, ...] = ()
@@ -144,7 +150,7 @@ class _State:
 class ReadingFilter:
     """The wired sensors of a mind; `measured` [graph.width] says which readings come of them, or of time alone."""
 
-    def __init__(self, graph: Graph, sources: Sequence["Sampler | ReckonedServo"]) -> None:
+    def __init__(self, graph: Graph, sources: Sequence[SampleSource]) -> None:
         sensors = {sensor.name: sensor for sensor in graph.sensors}
         self._width = graph.width
         self.measured = rows_of(graph, measured_on_robot(graph, {source.wire.sensor for source in sources}))
