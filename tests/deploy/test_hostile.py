@@ -35,16 +35,16 @@ def test_hosts(host: str, robot: FakeRobot, bundles: Bundles, mindc: Call) -> No
 
 
 def test_bundles(
-    robot: FakeRobot, bundles: Bundles, mindc: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    old: str, robot: FakeRobot, bundles: Bundles, mindc: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shutil.copy(bundles[0], tmp_path / NAME)
     monkeypatch.chdir(tmp_path)
     assert mindc("deploy", "--watch", 0, "--", NAME, HOST).code == 0
-    assert robot.current()
+    assert robot.current() != old
     assert not list(tmp_path.rglob("pwned"))
     listed = json.loads(mindc("deploy", HOST, "--list", "--json").out)
-    assert listed["releases"][0]["bundle"] == NAME
-    assert len(mindc("deploy", HOST, "--list").out.splitlines()) == 1
+    assert listed["releases"][-1]["bundle"] == NAME
+    assert len(mindc("deploy", HOST, "--list").out.splitlines()) == 2
 
 
 def test_words_stay_words() -> None:

@@ -53,14 +53,14 @@ def test_a_file_that_is_no_bundle(robot: FakeRobot, tmp_path: Path, mindc: Call)
     assert robot.log("ssh.log") == []
 
 
-def test_a_bundle_without_wiring_has_no_service(robot: FakeRobot, tmp_path: Path, mindc: Call) -> None:
+def test_a_bundle_without_wiring_has_no_service(old: str, robot: FakeRobot, tmp_path: Path, mindc: Call) -> None:
     path = write(tmp_path, "Roam", wired=False)
     said = mindc("deploy", path, HOST)
     assert said.code == 1
     assert "--no-service" in said.err
     assert robot.log("ssh.log") == []
     assert mindc("deploy", path, HOST, "--no-service").code == 0
-    assert robot.current()
+    assert robot.current() != old
     assert not robot.unit.exists()
 
 
