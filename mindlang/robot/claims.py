@@ -44,6 +44,10 @@ def check_claims(everything: Iterable[Wired], findings: Findings) -> None:
 
 
 def _claims(wired: Wired) -> Iterator[Claim]:
+    """A board has one address. Drivers with the same usual one are for the same board, each for other outputs of it.
+
+    Sensors that read different things of one device have in common all of its numbers, and its texts.
+    """
     for option in wired.options:
         if option.type == PIN:
             yield from (Claim(f"GPIO {number}", span) for number, span in _numbers(wired, option))
@@ -57,25 +61,16 @@ def _claims(wired: Wired) -> Iterator[Claim]:
         return
     here = wired.span("bus", "driver")
     yield from (Claim(f"GPIO {pin}", here, f"I2C bus {bus}") for pin in BUS_PINS.get(bus, ()))
-    for option in wired.options:
-        if option.type == ADDRESS:
-            board = f"I2C address 0x{wired.values[option.field]:02x} of bus {bus}"
-            yield from _on_board(wired, board, option, selecting)
-
-
-def _on_board(wired: Wired, board: str, address: DriverOption, selecting: Sequence[DriverOption]) -> Iterator[Claim]:
-    """A board has one address. Drivers with the same usual one are for the same board, each for other outputs of it.
-
-    Sensors that read different things of one device have in common all of its numbers, and its texts.
-    """
     is_sensor = wired.noun == "sensor"
-    can_share = selecting or is_sensor
-    yield Claim(board, wired.span(address.key, "driver"), ("board", address.default) if can_share else None)
     said = (wired.values[option.field] for option in wired.options if option.shape not in ("word", "words"))
     device = (wired.span("driver").text, tuple(said)) if is_sensor else None
-    for option in selecting:
-        for number, place in _numbers(wired, option):
-            yield Claim(f"Number {number} at {board}", place, device)
+    for address in (option for option in wired.options if option.type == ADDRESS):
+        board = f"I2C address 0x{wired.values[address.field]:02x} of bus {bus}"
+        can_share = selecting or is_sensor
+        yield Claim(board, wired.span(address.key, "driver"), ("board", address.default) if can_share else None)
+        for option in selecting:
+            for number, place in _numbers(wired, option):
+                yield Claim(f"Number {number} at {board}", place, device)
 
 
 def _numbers(wired: Wired, option: DriverOption) -> Iterator[tuple[int, Span]]:

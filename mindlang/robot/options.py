@@ -187,8 +187,13 @@ def _option_schema(option: DriverOption, description: str) -> dict[str, Any]:
 def _value_schema(option: DriverOption) -> dict[str, Any]:
     one: dict[str, Any]
     match option.shape.removesuffix("s"), option.type:
-        case "number", Quantity() as quantity:
-            one = _number_schema(quantity)
+        case "number", Quantity() as quantity:  # a number, or a text with one of the units
+            low = {} if isinf(quantity.low) else {"minimum": quantity.low}
+            high = {} if isinf(quantity.high) else {"maximum": quantity.high}
+            bare = {"type": "integer" if quantity.whole else "number", **low, **high}
+            units = "|".join(re.escape(unit) for unit in quantity.units if unit)
+            written = {"type": "string", "pattern": f"^{NUMBER_PATTERN} *({units})$"}
+            one = bare if not units else {"anyOf": [bare, written]} if "" in quantity.units else written
         case "flag", _:
             one = {"type": "boolean"}
         case "word", Reference(words=words):
@@ -200,13 +205,3 @@ def _value_schema(option: DriverOption) -> dict[str, Any]:
     count = {"minItems": option.count, "maxItems": option.count} if option.count else {"minItems": 1}
     several = {"type": "array", "items": one, **count}
     return {"anyOf": [one, several]} if option.shape == "numbers" and option.count in (None, 1) else several
-
-
-def _number_schema(quantity: Quantity) -> dict[str, Any]:
-    """A number, or a text with one of the units."""
-    low = {} if isinf(quantity.low) else {"minimum": quantity.low}
-    high = {} if isinf(quantity.high) else {"maximum": quantity.high}
-    bare = {"type": "integer" if quantity.whole else "number", **low, **high}
-    units = "|".join(re.escape(unit) for unit in quantity.units if unit)
-    written = {"type": "string", "pattern": f"^{NUMBER_PATTERN} *({units})$"}
-    return bare if not units else {"anyOf": [bare, written]} if "" in quantity.units else written
