@@ -26,8 +26,7 @@ from mindrun.graph.run_scores import Scores
 from mindrun.kinds.procedure_text import FILES
 from mindrun.train.attempt import Segment, Stretch, advance
 from mindrun.train.lesson_state import Course
-from mindrun.train.population import Genomes
-from mindrun.train.scoring import is_one_world
+from mindrun.train.scoring import WrappedScorer
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
@@ -244,14 +243,12 @@ def refuse_without(packages: tuple[str, ...], who: str, extra: str) -> None:
             raise MindError(f"{who} {name.replace('_', '-')}, which is not installed", hint)
 
 
-class JobScorer:
+class JobScorer(WrappedScorer):
     """Scores as `rollout` would, to the bit, by any workers: a result depends on its genome and its seed alone."""
 
     def __init__(self, rollout: Any, jobs: JobExecutor) -> None:
-        self.rollout, self.jobs = rollout, jobs
-        self.task: Task = rollout.task
-        self.genome_length: int = rollout.genome_length
-        self.is_one_world = is_one_world(rollout)
+        super().__init__(rollout)
+        self.jobs = jobs
         self._seconds: float | None = None  # that a run takes, by the last job
         self._asked = 0  # the number of the last job: one that was given up may still be answered
 
@@ -264,11 +261,6 @@ class JobScorer:
     def make_again(self, genome: NDArray[np.float32], seed: int) -> None:
         """Make a run twice here, where it may not be the same again."""
         self.rollout.make_again(genome, seed)
-
-    def draw(self, count: int, rng: np.random.Generator) -> Genomes:
-        """Random genomes [count, genome_length] for learning to begin with."""
-        genomes: Genomes = self.rollout.draw(count, rng)
-        return genomes
 
     def score(
         self,

@@ -14,9 +14,9 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from mindrun.graph.graph import Task
 from mindrun.graph.run_scores import Scores as RunScores
-from mindrun.train.attempt import Clock, JoinedSegments, Segment, Stretch, advance
+from mindrun.graph.weights import Weights
+from mindrun.train.attempt import Clock, Segment, Stretch, advance
 from mindrun.train.lesson_state import (
     AttemptState,
     Course,
@@ -32,8 +32,7 @@ from mindrun.train.lesson_state import (
     judged,
     rung_at,
 )
-from mindrun.train.population import Genomes
-from mindrun.train.scoring import Scorer, is_one_world
+from mindrun.train.scoring import Scorer, WrappedScorer
 
 POLL_SECONDS = 0.2  # to wait for a segment before who asks may look at something else
 
@@ -55,8 +54,8 @@ class Step:
 
     state: LessonState
     records: tuple[Record, ...]
-    champions: Genomes
-    ahead: Ahead = NOTHING_AHEAD
+    champions: tuple[Weights, ...]
+    ahead: Ahead
 
 
 class AttemptExecutor(Protocol):
@@ -149,23 +148,16 @@ class ScoringStoppedError(Exception):
     """Scoring was stopped, since nobody waits for the scores any more."""
 
 
-class Stoppable:
+class Stoppable(WrappedScorer):
     """A scorer that asks another until `stop` is set: then it raises ScoringStoppedError, in the middle of its runs."""
 
     def __init__(self, scorer: Any, stop: Event) -> None:
-        self._scorer, self._stop = scorer, stop
-        self.genome_length: int = scorer.genome_length
-        self.task: Task = scorer.task
-        self.is_one_world = is_one_world(scorer)
-
-    def draw(self, count: int, rng: np.random.Generator) -> Genomes:
-        """Random genomes [count, genome_length] for learning to begin with."""
-        genomes: Genomes = self._scorer.draw(count, rng)
-        return genomes
+        super().__init__(scorer)
+        self._stop = stop
 
     def score(self, genomes: Any, seeds: Any, *, ticks: int | None = None) -> RunScores:
         """Every genome on every seed."""
-        results: RunScores = self._scorer.score(genomes, seeds, self._ran, ticks=ticks)
+        results: RunScores = self.rollout.score(genomes, seeds, self._ran, ticks=ticks)
         return results
 
     def _ran(self, runs: float) -> None:
@@ -180,7 +172,7 @@ class Track:
     number: int
     state: AttemptState
     job: int = -1  # that is at it; -1 for none
-    segments: deque[JoinedSegments] = field(default_factory=deque)
+    segments: deque[Segment] = field(default_factory=deque)
     at_rung: dict[int, AttemptState] = field(default_factory=dict)  # where it stood there
     cut: AttemptState | None = None  # where it was found behind
     verdict: Verdict | None = None
@@ -237,7 +229,7 @@ class Attempts:
             return
         track.job, track.verdict = -1, segment.verdict
         if track.cut is not None:
-            track.segments[-1].verdict = segment.verdict
+            track.segments[-1] = track.segments[-1].then(segment)
         else:
             track.state = segment.state
             self._append(track, segment)
@@ -250,7 +242,7 @@ class Attempts:
         while (track := self.tracks.get(self.lesson.attempt)) and track.segments:
             if is_over(self.course.lesson, self.lesson) or self._is_open(track, track.segments[0]):
                 return
-            yield self._gone_on(track, track.segments.popleft().as_segment())
+            yield self._gone_on(track, track.segments.popleft())
 
     def ahead(self) -> Ahead:
         """The work that attempts behind that at work have done."""
@@ -264,17 +256,15 @@ class Attempts:
 
     def _append(self, track: Track, segment: Segment) -> None:
         """Keep a segment, joined to the one before unless a decision may come between them."""
-        before = track.segments[-1] if track.segments else None
-        if before is not None and all(before.state is not at_rung for at_rung in track.at_rung.values()):
-            before.add(segment)
-        else:
-            track.segments.append(JoinedSegments(segment))
+        if track.segments and all(track.segments[-1].state is not at_rung for at_rung in track.at_rung.values()):
+            segment = track.segments.pop().then(segment)
+        track.segments.append(segment)
         rung = rung_at(self.course.lesson, segment.state.population.generation)
         if rung is not None:
             track.at_rung[rung] = segment.state
             self.rows[track.number, rung] = segment.state.climbed[rung]
 
-    def _is_open(self, track: Track, segment: JoinedSegments) -> bool:
+    def _is_open(self, track: Track, segment: Segment) -> bool:
         """True if it is not known yet what becomes of an attempt behind a segment."""
         if segment.verdict is not None:
             return False
