@@ -6,10 +6,11 @@ retrospect, where it stood at the rung.
 
 from collections import deque
 from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
 from heapq import heappop, heappush
 from queue import Empty, SimpleQueue
-from threading import Event, Thread
+from threading import Event
 from typing import Any, Protocol
 
 import numpy as np
@@ -103,12 +104,13 @@ class StretchThreads:
     def __init__(self, course: Course, cores: int, on: Callable[[int], Any], clock: Clock) -> None:
         self._course, self._cores, self._on, self._clock = course, cores, on, clock
         self._asked: list[tuple[int, Stretch]] = []
-        self._done: SimpleQueue[tuple[int, Segment] | BaseException] = SimpleQueue()
-        self._at_work, self._stop = 0, Event()
+        self._jobs: dict[Future[Segment], int] = {}
+        self._ended: SimpleQueue[Future[Segment]] = SimpleQueue()
+        self._pool, self._stop = ThreadPoolExecutor(cores), Event()
 
     def has_room(self) -> bool:
         """True if a core would be idle without another stretch."""
-        return self._at_work + len(self._asked) < self._cores
+        return len(self._jobs) + len(self._asked) < self._cores
 
     def submit(self, job: int, stretch: Stretch) -> None:
         """Ask for a stretch; it begins when all that there are have been asked for."""
@@ -116,32 +118,23 @@ class StretchThreads:
 
     def next_result(self) -> tuple[int, Segment] | None:
         """A job and its segment; None after POLL_SECONDS without one. Whatever a stretch raises is raised here."""
-        self._begin()
+        at_work = len(self._jobs) + len(self._asked)
+        for job, stretch in self._asked:
+            scorer = Stoppable(self._on(-(-self._cores // at_work)), self._stop)
+            future = self._pool.submit(advance, self._course, scorer, stretch, self._clock, most=1)
+            self._jobs[future] = job
+            future.add_done_callback(self._ended.put)
+        self._asked.clear()
         try:
-            done = self._done.get(timeout=POLL_SECONDS)
+            ended = self._ended.get(timeout=POLL_SECONDS)
         except Empty:
             return None
-        self._at_work -= 1
-        if isinstance(done, BaseException):
-            raise done
-        return done
+        return self._jobs.pop(ended), ended.result()
 
     def close(self) -> None:
         """Have all stretches end in the middle of what they do; nobody waits for that."""
         self._stop.set()
-
-    def _begin(self) -> None:
-        self._at_work += len(self._asked)
-        for job, stretch in self._asked:
-            scorer = Stoppable(self._on(-(-self._cores // self._at_work)), self._stop)
-            Thread(target=self._do, args=(job, stretch, scorer), daemon=True).start()
-        self._asked.clear()
-
-    def _do(self, job: int, stretch: Stretch, scorer: "Stoppable") -> None:
-        try:
-            self._done.put((job, advance(self._course, scorer, stretch, self._clock, most=1)))
-        except BaseException as error:
-            self._done.put(error)
+        self._pool.shutdown(wait=False)
 
 
 class ScoringStoppedError(Exception):
