@@ -17,12 +17,10 @@ from mindlang.breakpoints.breakpoint import (
     ROBOT_WORDS,
     STOPPED,
     Breakpoint,
-    Fault,
     Happens,
     Holds,
     Reaches,
     RobotEvent,
-    Stopped,
     Transmission,
 )
 from mindlang.breakpoints.subject import BreakpointSubject
@@ -122,7 +120,7 @@ class _Resolver:
             message = f"{word} of a robot comes after no other event."
             self.findings.error("within", written.within.span, message, "Leave it out.")
         elif not said:
-            return Stopped() if word == STOPPED else Fault()
+            return RobotEvent(word)
         elif word == STOPPED:
             message = f"{word} takes no arguments."
             self.findings.error("unknown-argument", written.span, message, f"Write stop on {word}.")
@@ -131,7 +129,7 @@ class _Resolver:
             self.findings.error("unknown-argument", written.span, f"{word} takes of and the name of a sensor.", hint)
         elif name := a_name(said[0], "Here stands the name of a sensor.", self.findings):
             if name.text in sensors:
-                return Fault(name.text)
+                return RobotEvent(word, name.text)
             wired = f"Wired are {listed(sensors, 'and')}." if sensors else "No sensor of this robot is wired."
             hint = self.findings.suggest(name.text, sensors) or wired
             message = f"The robot has no wired sensor called {name.text}."

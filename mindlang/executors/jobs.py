@@ -5,7 +5,7 @@ words, why it was not done. Genomes × seeds become jobs, whose results are the 
 """
 
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
@@ -277,19 +277,21 @@ class JobScorer(WrappedScorer):
             raise ValueError("a genome has weights that are not finite numbers")
         genomes, words = np.ascontiguousarray(genomes, np.float32), np.array(seeds, np.uint64)
         whole = empty_scores(len(genomes), len(words), self.task)
-        blocks, open_jobs = Blocks(len(genomes), len(words)), dict[int, Block]()
-        while blocks.left or open_jobs:
-            while blocks.left and self.jobs.has_room():
-                block = blocks.next(runs_in_a_job(genomes.shape[0] * len(words), self.jobs.workers, self._seconds))
+        size = lambda: runs_in_a_job(len(genomes) * len(words), self.jobs.workers, self._seconds)  # noqa: E731
+        left, open_jobs = blocks(len(genomes), len(words), size), dict[int, Block]()
+        block = next(left, None)
+        while block or open_jobs:
+            while block and self.jobs.has_room():
                 self._asked += 1
                 self.jobs.submit(self._asked, partial(_score, genomes[block.genomes], words[block.seeds], ticks))
                 open_jobs[self._asked] = block
-            if (taken := self.jobs.next_result()) is not None and (block_done := open_jobs.pop(taken[0], None)):
+                block = next(left, None)
+            if (taken := self.jobs.next_result()) is not None and (answered := open_jobs.pop(taken[0], None)):
                 done = taken[1]
                 done.count_in(self.rollout)
-                self._seconds = done.seconds / block_done.runs
-                write_scores(block_done, done.result, whole)
-                ran(block_done.runs)
+                self._seconds = done.seconds / answered.runs
+                write_scores(answered, done.result, whole)
+                ran(answered.runs)
         return whole
 
     def tally(self) -> Tally:
@@ -325,27 +327,17 @@ def runs_in_a_job(runs: int, workers: int, seconds: float | None) -> int:
     return max(1, ceil(min(max(share, fewest), most)))
 
 
-class Blocks:
-    """Genomes × seeds cut into blocks: whole genomes while a job is for at least as many runs as there are seeds."""
-
-    def __init__(self, genomes: int, seeds: int) -> None:
-        self._genomes, self._seeds, self._done = genomes, seeds, 0
-
-    @property
-    def left(self) -> int:
-        """The number of runs that are left."""
-        return self._genomes * self._seeds - self._done
-
-    def next(self, runs: int) -> Block:
-        """The next block, of about so many runs, at least one."""
-        genome, seed = divmod(self._done, self._seeds)
-        if seed == 0 and runs >= self._seeds:
-            last = min(self._genomes, genome + runs // self._seeds)
-            block = Block(slice(genome, last), slice(0, self._seeds))
+def blocks(genomes: int, seeds: int, size: Callable[[], int]) -> Iterator[Block]:
+    """Genomes × seeds cut into blocks, of about `size()` runs each: whole genomes where these are all seeds or more."""
+    done = 0
+    while done < genomes * seeds:
+        (genome, seed), runs = divmod(done, seeds), size()
+        if seed == 0 and runs >= seeds:
+            block = Block(slice(genome, min(genomes, genome + runs // seeds)), slice(0, seeds))
         else:
-            block = Block(slice(genome, genome + 1), slice(seed, min(self._seeds, seed + max(1, runs))))
-        self._done += block.runs
-        return block
+            block = Block(slice(genome, genome + 1), slice(seed, min(seeds, seed + runs)))
+        done += block.runs
+        yield block
 
 
 def empty_scores(genomes: int, seeds: int, task: Task) -> Scores:

@@ -19,7 +19,7 @@ from mindrun.files.regular_files import read_whole
 from mindrun.files.strict_json import is_whole, parsed
 from mindrun.train import RunError
 from mindrun.train.lesson_state import AttemptState, LessonState
-from mindrun.train.population import Population
+from mindrun.train.population import Population, Scores
 
 NAME, PREVIOUS = "checkpoint", "checkpoint.previous"
 MAGIC = b"mind checkpoint 6\n"
@@ -153,13 +153,17 @@ def _are_consistent(arrays: Arrays) -> bool:
 
 
 def _state(arrays: Arrays) -> LessonState:
-    attempt, generation, since, generations, ticks, faults, told_apart = (int(count) for count in arrays["counts"])
-    best, seconds = (float(number) for number in arrays["floats"])
+    attempt, generation, since, generations, ticks, faults, told_apart = arrays["counts"].tolist()
+    best, seconds = arrays["floats"].tolist()
+    now = attempt_state(arrays, generation, since, arrays["rungs"][-1], told_apart)
+    ended = arrays["rungs"][:-1], arrays["champions"], arrays["lengths"], arrays["verdicts"], arrays["passed"] == 1
+    return LessonState(attempt, now, *ended, best, generations, ticks, seconds, faults, now.told_apart)
+
+
+def attempt_state(arrays: Arrays, generation: int, since: int, climbed: Scores, told_apart: int) -> AttemptState:
+    """The state of an attempt whose population, champion and rival are among arrays."""
     population = Population(arrays["genomes"], arrays["scores"], generation)
-    rungs, climbed = arrays["rungs"][:-1], arrays["rungs"][-1]
-    now = AttemptState(population, arrays["champion"], arrays["rival"], since, climbed, bool(told_apart))
-    ended = rungs, arrays["champions"], arrays["lengths"], arrays["verdicts"], arrays["passed"] == 1
-    return LessonState(attempt, now, *ended, best, generations, ticks, seconds, faults, bool(told_apart))
+    return AttemptState(population, arrays["champion"], arrays["rival"], since, climbed, bool(told_apart))
 
 
 def _read(path: Path, run: str) -> LessonState | None:

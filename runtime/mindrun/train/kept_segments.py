@@ -15,10 +15,9 @@ from mindrun.files.atomic_write import write
 from mindrun.files.regular_files import read_whole
 from mindrun.train.attempt import Clock, Segment, Stretch
 from mindrun.train.attempts import AttemptExecutor
-from mindrun.train.checkpoint import Arrays, sealed, unsealed
+from mindrun.train.checkpoint import Arrays, attempt_state, sealed, unsealed
 from mindrun.train.lesson_state import AttemptState, Course, Record, Verdict, begin_attempt, rung_at
 from mindrun.train.manifest import own_build
-from mindrun.train.population import Population
 
 NAME = "ahead"
 MAGIC = b"mind attempts ahead 2\n"
@@ -162,17 +161,15 @@ def _arrays(segment: Segment) -> Arrays:
 def _segment(arrays: Arrays, course: Course) -> Segment:
     """The segment that these arrays are; ValueError where it is none of the course."""
     generation, since, told_apart = arrays["counts"].tolist()
-    genomes, champion, rival, champions = (arrays[name] for name in ("genomes", "champion", "rival", "champions"))
-    weights = course.start.shape[1]
-    if any(each.shape[1] != weights or not np.isfinite(each).all() for each in (genomes, champion, rival, champions)):
-        raise ValueError("its genomes are not those of the course")
-    population = Population(genomes, arrays["scores"], generation)
-    state = AttemptState(population, champion, rival, since, arrays["climbed"], bool(told_apart))
-    records = tuple(map(_record, arrays["records"].tolist()))
+    champions, weights = arrays["champions"], course.start.shape[1]
+    for each in (arrays["genomes"], arrays["champion"], arrays["rival"], champions):
+        if each.shape[1] != weights or not np.isfinite(each).all():
+            raise ValueError("its genomes are not those of the course")
+    state = attempt_state(arrays, generation, since, arrays["climbed"], told_apart)
     verdict = None
     for first, second, passed, ticks, faults in arrays["verdict"].tolist():
         verdict = Verdict(np.array([first, second]), bool(passed), int(ticks), int(faults))
-    return Segment(state, records, tuple(champions), verdict)
+    return Segment(state, tuple(map(_record, arrays["records"].tolist())), tuple(champions), verdict)
 
 
 def _record(numbers: list[float]) -> Record:

@@ -92,9 +92,7 @@ class LessonState:
     @property
     def verdict(self) -> tuple[float, float]:
         """Both scores of the kept one on layouts that its generations never saw; -inf before an attempt has ended."""
-        if not len(self.verdicts):
-            return -inf, -inf
-        first, second = self.verdicts[self._best[0]].tolist()
+        first, second = self.verdicts[self._best[0]].tolist() if len(self.verdicts) else (-inf, -inf)
         return first, second
 
     @property
