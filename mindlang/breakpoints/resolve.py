@@ -50,7 +50,7 @@ class BreakpointFile:
 
 
 def load_breakpoints(path: Path | str, subject: BreakpointSubject | None) -> BreakpointFile:
-    """The breakpoints of the file at `path`, or with "-" of standard input."""
+    """ "-" is standard input."""
     source = read_main(path)
     return BreakpointFile((), (source,)) if isinstance(source, Diagnostic) else breakpoints_of(source, subject)
 
@@ -77,7 +77,6 @@ class _Resolver:
     findings: Findings
 
     def breakpoints(self, lines: list[Stop]) -> Iterator[Breakpoint]:
-        """The breakpoints of the lines with which nothing is wrong."""
         names = self.subject.names
         self.findings.numbers = names.numbers.keys()
         for line in map(number_writer(names, number_values(names, Findings()), self.subject.graph.tick), lines):

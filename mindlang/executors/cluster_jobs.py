@@ -161,7 +161,6 @@ class ClusterJobs(JobExecutor):
         return WorkError(f"the scheduler at {self._address} is gone", "begin it again, and its workers")
 
     def _tell(self, now: float) -> None:
-        """Say that there is no worker, and later that there is one."""
         if self._slots:
             self.has_begun = True
             if self._has_said:

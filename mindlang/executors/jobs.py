@@ -87,7 +87,6 @@ class Done:
     tally: Tally
 
     def count_in(self, scorer: Any) -> None:
-        """Add what was counted elsewhere to what a scorer has counted."""
         if len(self.tally):
             scorer.add(self.tally)
 
@@ -124,10 +123,11 @@ def rollout_of(assignment: Assignment, threads: int) -> "Rollout":
     bundle = unpack(assignment.bundle)
     with tempfile.TemporaryDirectory(prefix="mind-work-") as folder:
         for name, content in bundle.procedures.items():
-            is_text = isinstance(content, str)
-            path = Path(folder, f"{name.replace('.', '/')}.py" if is_text else name.removeprefix(FILES))
+            if isinstance(content, str):
+                name, content = f"{name.replace('.', '/')}.py", content.encode()
+            path = Path(folder, name.removeprefix(FILES))
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(content.encode() if isinstance(content, str) else content)
+            path.write_bytes(content)
         cast = bundle.policy, assignment.task, assignment.master, assignment.learners
         rollout: Rollout = rollout_for(*cast, procedures=Path(folder), interrupt=assignment.interrupt, workers=threads)
         rollout.compile()
@@ -164,7 +164,6 @@ class JobExecutor:
         return len(self._open) < self.workers
 
     def submit(self, number: int, work: Work) -> None:
-        """Have a job done."""
         self._ask(Job(number, work))
 
     def next_result(self) -> tuple[int, Done] | None:
@@ -215,15 +214,12 @@ class StretchExecutor:
     scorer: Any = None
 
     def has_room(self) -> bool:
-        """True if a worker would wait without another stretch."""
         return self.jobs.has_room()
 
     def submit(self, job: int, stretch: Stretch) -> None:
-        """Have a stretch done."""
         self.jobs.submit(job, partial(_advance, self.course, stretch))
 
     def next_result(self) -> tuple[int, Segment] | None:
-        """The number of a job and its segment; None after POLL_SECONDS without one."""
         if (taken := self.jobs.next_result()) is None:
             return None
         job, done = taken
@@ -254,12 +250,10 @@ class JobScorer(WrappedScorer):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Notes for the user on the runs so far."""
         notes: tuple[str, ...] = self.rollout.notes
         return notes
 
     def make_again(self, genome: NDArray[np.float32], seed: int) -> None:
-        """Make a run twice here, where it may not be the same again."""
         self.rollout.make_again(genome, seed)
 
     def score(
@@ -295,12 +289,10 @@ class JobScorer(WrappedScorer):
         return whole
 
     def tally(self) -> Tally:
-        """The counts of all workers beside the results."""
         return tally_of(self.rollout)
 
 
 def _score(genomes: NDArray[np.float32], seeds: NDArray[np.uint64], ticks: int | None, scorer: Any) -> Scores:
-    """Every genome [genomes, weights] on every seed, no longer than so many ticks."""
     scores: Scores = scorer.score(genomes, seeds, ticks=ticks)
     return scores
 
@@ -314,7 +306,6 @@ class Block:
 
     @property
     def runs(self) -> int:
-        """The number of runs."""
         return int((self.genomes.stop - self.genomes.start) * (self.seeds.stop - self.seeds.start))
 
 
@@ -341,15 +332,11 @@ def blocks(genomes: int, seeds: int, size: Callable[[], int]) -> Iterator[Block]
 
 
 def empty_scores(genomes: int, seeds: int, task: Task) -> Scores:
-    """Arrays of zeros for the scores of all genomes on all seeds."""
     more = {"by_line": (max(1, len(task.rewards)),), "by_event": (len(task.events),)}
-    whole: dict[str, NDArray[Any]] = {}
-    for name in (*SUMMED, *COUNTED):
-        whole[name] = np.zeros((genomes, seeds, *more.get(name, ())), np.float64 if name in SUMMED else np.int64)
-    return Scores(**whole)
+    types = dict.fromkeys(SUMMED, np.float64) | dict.fromkeys(COUNTED, np.int64)
+    return Scores(**{name: np.zeros((genomes, seeds, *more.get(name, ())), of) for name, of in types.items()})
 
 
 def write_scores(block: Block, part: Any, whole: Scores) -> None:
-    """Write the scores of a block into those of all genomes and seeds."""
     for name in (*SUMMED, *COUNTED):
         getattr(whole, name)[block.genomes, block.seeds] = getattr(part, name)

@@ -105,7 +105,6 @@ def _entry(path: Path, graph: Graph, skill: str, weights: Mapping[str, Weights],
 
 
 def digest(weights: Weights) -> str:
-    """The SHA-256 of weights as they lie in their file."""
     return sha256(to_npy(weights)).hexdigest()
 
 

@@ -127,7 +127,6 @@ class Worlds:
 
     @cached_property
     def _names(self) -> list[str]:
-        """The sensor or memory of every reading, by its index."""
         return [name for name, _ in self.graph.readings]
 
     def _skill(self, skill: Skill) -> dict[str, Any]:
@@ -148,7 +147,6 @@ class Worlds:
         return {**function, "reads": reads, "answers": answers, **sends}
 
     def _sends(self, edge: Edge) -> str:
-        """The target, value, gate and cut of an edge, as they are written."""
         words = [self.graph.named(edge.to, edge.target)]
         words += [f"over {' and '.join(self.graph.named(*sink) for sink in edge.over)}"] * bool(edge.over)
         words += [f"at {infix(edge.value, self._leaf)}"] if edge.output is None else []
@@ -219,7 +217,6 @@ class Worlds:
         return leaf
 
     def _reward(self, task: Task, reward: Reward) -> Iterator[str]:
-        """A reward's amount, and what it is paid for."""
         leaf = self._leaf_of(task)
         yield infix(reward.amount, leaf)
         words = ["per tick" if reward.on is None else f"on {phrase(task.events[reward.on])}"]

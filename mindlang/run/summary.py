@@ -212,7 +212,6 @@ def _figure(name: str, value: float | None) -> str:
 
 
 def _difference(name: str, found: PairedDifference) -> tuple[str, str]:
-    """The difference and its interval."""
 
     def bound(value: float) -> str:
         return f"{100 * value:.1f} %" if name == SUCCESS else amount(name, value, found)

@@ -37,7 +37,6 @@ class WeightsComparison:
 
     @property
     def is_worse(self) -> bool:
-        """True if the new weights do worse."""
         return self.new < self.old
 
     def __str__(self) -> str:

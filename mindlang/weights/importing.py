@@ -188,7 +188,6 @@ class Imported:
     notes: tuple[str, ...] = ()
 
     def data(self) -> dict[str, Any]:
-        """The file, the deviation and the scores as plain data for JSON."""
         trial, compared = self.trial, self.deviation
         return {
             "skill": trial.network.skill.name,

@@ -34,7 +34,7 @@ def run(tmp_path: Path) -> RunFolder:
 
 def watched(run: RunFolder, stop_after: int = 10**9, events: EventFiles | None = None) -> None:
     """Train with event files, and stop after so many generations."""
-    events, silent = events or EventFiles(run), unwatched(1e9, stop_after)
+    events, silent = events or EventFiles(run), unwatched(stop_after=stop_after)
 
     def report(_: object, record: Record) -> None:
         events.report(record, silent.clock())
@@ -111,7 +111,7 @@ def test_generations_that_a_crash_took_back_are_gone(run: RunFolder) -> None:
 
 
 def test_a_run_that_has_ended_without_them_gets_them_all_the_same(run: RunFolder) -> None:
-    train(run, Sphere(), unwatched(1e9))
+    train(run, Sphere(), unwatched())
     assert not (run.folder / FOLDER).exists()
     EventFiles(run).write_all()
     assert all_of(run) == expected(run)
@@ -131,7 +131,7 @@ def test_what_is_not_finite_is_no_event(run: RunFolder) -> None:
     def report(_: object, record: Record) -> None:
         events.report(record, 0.0)
 
-    silent = unwatched(1e9)
+    silent = unwatched()
     train(run, Faulty(above=-1e9), Watch(report, forget, silent.stop, silent.clock, save_every=silent.save_every))
     events.close()
     assert all_of(run) == expected(run)

@@ -33,7 +33,7 @@ def end(run: RunFolder) -> tuple[bytes, bytes, bytes, list[dict[str, float | Non
 
 def test_killed_at_random_moments_it_ends_in_the_same_bits(tmp_path: Path) -> None:
     undisturbed, disturbed = made(tmp_path), made(tmp_path)
-    train(undisturbed, Sphere(), unwatched(save_every=2.0))
+    train(undisturbed, Sphere(), unwatched())
     moments = random.Random(0)
     codes = [live(disturbed, moments.uniform(0, 0.06)) for _ in range(KILLS)]
     assert codes == [-signal.SIGKILL] * KILLS
@@ -68,12 +68,12 @@ def test_how_high_attempts_have_climbed_is_not_forgotten(tmp_path: Path) -> None
 def stops_after_any_generation(tmp_path: Path, course: Manifest, every: int = 1) -> list[dict[str, float | None]]:
     """Stop after a generation, or after one of `every` so many; the log of the run that was not stopped."""
     undisturbed = create(tmp_path, course, {}, {})
-    train(undisturbed, Sphere(), unwatched(save_every=9.0))
+    train(undisturbed, Sphere(), unwatched())
     records = end(undisturbed)[-1]
     for generations in range(1, len(records), every):
         stopped = create(tmp_path, course, {}, {})
-        train(stopped, Sphere(), unwatched(9.0, generations))
-        train(stopped, Sphere(), unwatched(9.0))
+        train(stopped, Sphere(), unwatched(stop_after=generations))
+        train(stopped, Sphere(), unwatched())
         assert end(stopped) == end(undisturbed)
     return records
 
@@ -90,7 +90,7 @@ def test_the_previous_checkpoint_gives_the_same_bits(tmp_path: Path) -> None:
     course = manifest(lesson(9))
     undisturbed, damaged = create(tmp_path, course, {}, {}), create(tmp_path, course, {}, {})
     train(undisturbed, Sphere(), unwatched())
-    train(damaged, Sphere(), unwatched(stop_after=4))
+    train(damaged, Sphere(), unwatched(0.0, 4))
     (damaged.folder / "checkpoint").write_bytes(b"half a check")
     train(damaged, Sphere(), unwatched())
     assert end(damaged) == end(undisturbed)

@@ -80,15 +80,12 @@ class InThisThread:
         self._asked: tuple[int, Stretch] | None = None
 
     def has_room(self) -> bool:
-        """True if no stretch is asked for."""
         return self._asked is None
 
     def submit(self, job: int, stretch: Stretch) -> None:
-        """Ask for a stretch."""
         self._asked = job, stretch
 
     def next_result(self) -> tuple[int, Segment] | None:
-        """The job, and the segment that comes of its stretch now."""
         if self._asked is None:
             return None
         (job, stretch), self._asked = self._asked, None
@@ -109,7 +106,6 @@ class StretchThreads:
         self._pool, self._stop = ThreadPoolExecutor(cores), Event()
 
     def has_room(self) -> bool:
-        """True if a core would be idle without another stretch."""
         return len(self._jobs) + len(self._asked) < self._cores
 
     def submit(self, job: int, stretch: Stretch) -> None:
@@ -117,7 +113,7 @@ class StretchThreads:
         self._asked.append((job, stretch))
 
     def next_result(self) -> tuple[int, Segment] | None:
-        """A job and its segment; None after POLL_SECONDS without one. Whatever a stretch raises is raised here."""
+        """None after POLL_SECONDS without a segment. Whatever a stretch raises is raised here."""
         at_work = len(self._jobs) + len(self._asked)
         for job, stretch in self._asked:
             scorer = Stoppable(self._on(-(-self._cores // at_work)), self._stop)
@@ -149,7 +145,6 @@ class Stoppable(WrappedScorer):
         self._stop = stop
 
     def score(self, genomes: Any, seeds: Any, *, ticks: int | None = None) -> RunScores:
-        """Every genome on every seed."""
         results: RunScores = self.rollout.score(genomes, seeds, self._ran, ticks=ticks)
         return results
 
@@ -186,7 +181,6 @@ class Attempts:
     asked: int = 0
 
     def __post_init__(self) -> None:
-        """Take up the attempt at work, whose rungs below have been decided."""
         lesson, number = self.course.lesson, self.lesson.attempt
         count = lesson.learner.attempts
         self.rows = np.full((count, lesson.learner.rungs), -np.inf)
@@ -238,7 +232,6 @@ class Attempts:
             yield self._gone_on(track, track.segments.popleft())
 
     def ahead(self) -> Ahead:
-        """The work that attempts behind that at work have done."""
         done = [t.state.population.generation for number, t in self.tracks.items() if number > self.lesson.attempt]
         return Ahead(sum(map(bool, done)), sum(done))
 

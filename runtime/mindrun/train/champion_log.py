@@ -34,7 +34,6 @@ class Champion:
 
     @property
     def position(self) -> Position:
-        """The attempt and the generation that found it."""
         return self.attempt, self.generation
 
 

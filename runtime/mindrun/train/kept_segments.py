@@ -58,7 +58,6 @@ class KeptSegments:
         chain.append(segment)
 
     def forget(self, below: int) -> None:
-        """Forget the attempts before one."""
         self.chains = {number: chain for number, chain in self.chains.items() if number >= below}
 
     def save(self) -> None:
@@ -99,11 +98,10 @@ class RememberingExecutor:
         self._found: list[tuple[int, Segment]] = []
 
     def has_room(self) -> bool:
-        """True if a worker would be idle without another stretch."""
         return self._stretches.has_room()
 
     def submit(self, job: int, stretch: Stretch) -> None:
-        """Ask for a stretch; the first is of the attempt that the lesson is at."""
+        """The first stretch is of the attempt that the lesson is at."""
         if self._first < 0:
             self._first = self._at = stretch.number
         self._asked[job] = stretch
@@ -113,7 +111,6 @@ class RememberingExecutor:
             self._stretches.submit(job, stretch)
 
     def next_result(self) -> tuple[int, Segment] | None:
-        """A job and its segment; None after a while without one."""
         done = self._found.pop(0) if self._found else self._stretches.next_result()
         if done is None:
             return None
@@ -141,7 +138,6 @@ def is_same(one: AttemptState, other: AttemptState) -> bool:
 
 
 def _arrays(segment: Segment) -> Arrays:
-    """A segment of an attempt as arrays by name."""
     state, verdict = segment.state, segment.verdict
     records = [[nan if value is None else value for value in astuple(record)] for record in segment.records]
     ends = [] if verdict is None else [[*verdict.scores, verdict.passed, verdict.ticks, verdict.faults]]
@@ -173,7 +169,6 @@ def _segment(arrays: Arrays, course: Course) -> Segment:
 
 
 def _record(numbers: list[float]) -> Record:
-    """The record that these numbers are."""
     attempt, generation, best, mean, reevaluated, verdict, ticks, seconds, faults = numbers
     tried, judged = (None if isnan(value) else value for value in (reevaluated, verdict))
     return Record(int(attempt), int(generation), best, mean, tried, judged, int(ticks), seconds, int(faults))

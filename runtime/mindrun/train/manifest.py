@@ -58,7 +58,6 @@ class Manifest:
 
     @property
     def name(self) -> str:
-        """The lesson's name."""
         return self.lesson.name
 
     @property
@@ -86,7 +85,6 @@ def fingerprint(graph: Graph, lesson: Lesson, procedures: Path | None) -> str:
 
 
 def hashes(weights: Mapping[str, Weights]) -> dict[str, str]:
-    """The SHA-256 of each skill's weights."""
     return {skill: _sha256(np.ascontiguousarray(array, "<f4").tobytes()) for skill, array in sorted(weights.items())}
 
 
@@ -98,7 +96,6 @@ def versions() -> dict[str, str]:
 
 @cache
 def own_build() -> Build:
-    """The build of this process."""
     major, minor, _ = platform.python_version_tuple()
     packages = {package: installed_version(package) or "none" for package in COMPUTED_WITH}
     return {"mindrun": sources_hash(SOURCES), "python": f"{major}.{minor}", **packages}
@@ -133,7 +130,6 @@ def processor() -> str:
 
 
 def to_json(manifest: Manifest) -> bytes:
-    """The manifest as it stands in the run folder."""
     said = {"format": MANIFEST_VERSION, **asdict(manifest), "lesson": encode(manifest.lesson)}
     return json.dumps(said, indent=2).encode() + b"\n"
 

@@ -33,7 +33,6 @@ class Purpose(IntEnum):
 
 
 def breeding_generator(seed: int, attempt: int, generation: int) -> np.random.Generator:
-    """The random generator that breeds one generation."""
     return np.random.default_rng(_sequence(seed, attempt, generation, Purpose.BREEDING))
 
 
