@@ -117,8 +117,7 @@ def noticing(setup: RunSetup, breakpoints: Sequence[Breakpoint]) -> RunSetup:
         return setup
     policy, task = setup.ready.policy, replace(setup.task, events=(*setup.task.events, *missing))
     tasks = tuple(task if each.name == task.name else each for each in policy.graph.tasks)
-    noticing = replace(policy, graph=replace(policy.graph, tasks=tasks))
-    return replace(setup, task=task, ready=replace(setup.ready, policy=noticing))
+    return setup.with_policy(replace(policy, graph=replace(policy.graph, tasks=tasks)))
 
 
 def watcher(breakpoints: Sequence[Breakpoint], setup: RunSetup) -> Watcher:
