@@ -202,7 +202,7 @@ class RecordingWatcher:
     def __init__(self, breakpoints: Sequence[Breakpoint], of: About, mind: Bundle) -> None:
         """WeightsError or ProcedureError where a skill of the bundle cannot be made ready."""
         ready, task = hierarchy(mind.policy, mind.procedures, of.master), recorded_task(of, mind)
-        events = (*robot_events(of.sensors), *(task.events if task else ()))
+        events: tuple[EventKind | RobotEvent, ...] = (*robot_events(of.sensors), *(task.events if task else ()))
         self._watcher = Watcher(breakpoints, events, mind.graph, ready)
         self._drawn = drawn_numbers(task.draws, of.world.seed) if task and of.world else {}
         self._before = np.zeros((1, 1 + len(of.sensors)), bool)  # whether it had to stop, and the faults

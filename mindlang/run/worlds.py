@@ -6,7 +6,7 @@ from math import inf
 from typing import Any, NamedTuple
 
 from mindrun.graph.codec import encode
-from mindrun.graph.graph import Graph, Task
+from mindrun.graph.graph import Graph, Task, Variation
 from mindrun.graph.measured import measured_in_world
 from mindrun.graph.validate import graph_flaw
 from mindrun.kinds.registry import arguments, names
@@ -124,7 +124,7 @@ def _number(value: Any, factor: float, plus: float) -> Any:
 def _changed(graph: Graph, task: Task, parts: Sequence[Part], field: str, change: Change, who: str) -> World | None:
     """The world in which an argument of some parts is another; None where none is, or one would not be allowed."""
     kinds, told = dict[tuple[str, str], Any](), list[dict[str, str]]()
-    drawn = {(each.noun, each.of, each.argument): each for each in task.varies}
+    drawn: dict[tuple[str, str, str], Variation] = {(each.noun, each.of, each.argument): each for each in task.varies}
     for part in parts:
         number = next(each for each in arguments(type(part.kind)) if each.field == field)
         variation = drawn.get((part.noun, part.name, field))
