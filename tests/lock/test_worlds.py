@@ -391,6 +391,11 @@ TEXTS = [
     ("  ends on exhaustion\n", "", "its task has changed: no longer ends on exhaustion"),
     ("succeeds on 5", "succeeds on 4", None),
     (
+        "  succeeds on 5 delivery of ball to bin\n",
+        "",
+        "its task has changed: no longer succeeds on 5 delivery of ball to bin",
+    ),
+    (
         "left_wheel 0 to 10%",
         "left_wheel 0 to 20%",
         "its task has changed: no longer varies noise of left_wheel 0 to 0.1; "
