@@ -389,11 +389,11 @@ TEXTS = [
     ("each p in fear", "each p in eye", None),
     ("lasts 600", "lasts 601", "its task has changed: lasts 600 ticks, now 601"),
     ("  ends on exhaustion\n", "", "its task has changed: no longer ends on exhaustion"),
-    ("succeeds on 5", "succeeds on 4", None),
     (
-        "  succeeds on 5 delivery of ball to bin\n",
-        "",
-        "its task has changed: no longer succeeds on 5 delivery of ball to bin",
+        "succeeds on 5",
+        "succeeds on 4",
+        "its task has changed: no longer succeeds on 5 delivery of ball to bin; "
+        "its task has changed: succeeds on 4 delivery of ball to bin",
     ),
     (
         "left_wheel 0 to 10%",
