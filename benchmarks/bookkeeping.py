@@ -58,7 +58,7 @@ class MadeUp:
         records = tuple(
             Record(stretch.number + 1, at, 0.0, 0.0, None, None, 1, 0.0, 0) for at in range(before + 1, after + 1)
         )
-        champions = np.zeros((after - before, WEIGHT_COUNT), np.float32)
+        champions = tuple(np.zeros((after - before, WEIGHT_COUNT), np.float32))
         return job, Segment(state, records, champions, Verdict(np.zeros(2), True, 1, 0) if after == end else None)
 
 

@@ -13,23 +13,19 @@ ROBOT_WORDS = (STOPPED, FAULT)
 
 
 @dataclass(frozen=True, slots=True)
-class Stopped:
-    """The event that all actuators of a robot become neutral, whatever the skills command."""
+class RobotEvent:
+    """An event that the simulator does not know: `stopped` where all actuators become neutral, or a `fault`.
 
+    That is of the `sensor` of a name, or where it is empty of any that is wired.
+    """
 
-@dataclass(frozen=True, slots=True)
-class Fault:
-    """The event that a sensor becomes faulty: the one of that name, or any that is wired where it is empty."""
-
+    word: str
     sensor: str = ""
-
-
-RobotEvent = Stopped | Fault  # the simulator knows neither
 
 
 def robot_events(sensors: Sequence[str]) -> tuple[RobotEvent, ...]:
     """All events of a robot with these wired sensors: that it stops, any fault, the fault of each."""
-    return Stopped(), Fault(), *map(Fault, sensors)
+    return RobotEvent(STOPPED), *(RobotEvent(FAULT, sensor) for sensor in ("", *sensors))
 
 
 @dataclass(frozen=True, slots=True)

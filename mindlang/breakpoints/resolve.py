@@ -17,12 +17,10 @@ from mindlang.breakpoints.breakpoint import (
     ROBOT_WORDS,
     STOPPED,
     Breakpoint,
-    Fault,
     Happens,
     Holds,
     Reaches,
     RobotEvent,
-    Stopped,
     Transmission,
 )
 from mindlang.breakpoints.subject import BreakpointSubject
@@ -52,7 +50,7 @@ class BreakpointFile:
 
 
 def load_breakpoints(path: Path | str, subject: BreakpointSubject | None) -> BreakpointFile:
-    """The breakpoints of the file at `path`, or with "-" of standard input."""
+    """ "-" is standard input."""
     source = read_main(path)
     return BreakpointFile((), (source,)) if isinstance(source, Diagnostic) else breakpoints_of(source, subject)
 
@@ -79,7 +77,6 @@ class _Resolver:
     findings: Findings
 
     def breakpoints(self, lines: list[Stop]) -> Iterator[Breakpoint]:
-        """The breakpoints of the lines with which nothing is wrong."""
         names = self.subject.names
         self.findings.numbers = names.numbers.keys()
         for line in map(number_writer(names, number_values(names, Findings()), self.subject.graph.tick), lines):
@@ -122,7 +119,7 @@ class _Resolver:
             message = f"{word} of a robot comes after no other event."
             self.findings.error("within", written.within.span, message, "Leave it out.")
         elif not said:
-            return Stopped() if word == STOPPED else Fault()
+            return RobotEvent(word)
         elif word == STOPPED:
             message = f"{word} takes no arguments."
             self.findings.error("unknown-argument", written.span, message, f"Write stop on {word}.")
@@ -131,7 +128,7 @@ class _Resolver:
             self.findings.error("unknown-argument", written.span, f"{word} takes of and the name of a sensor.", hint)
         elif name := a_name(said[0], "Here stands the name of a sensor.", self.findings):
             if name.text in sensors:
-                return Fault(name.text)
+                return RobotEvent(word, name.text)
             wired = f"Wired are {listed(sensors, 'and')}." if sensors else "No sensor of this robot is wired."
             hint = self.findings.suggest(name.text, sensors) or wired
             message = f"The robot has no wired sensor called {name.text}."

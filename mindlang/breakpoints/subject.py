@@ -58,7 +58,6 @@ class BreakpointSubject:
 
     @cached_property
     def draws(self) -> Mapping[str, Draw]:
-        """The numbers that the task draws for each run, by their names."""
         return {draw.name: draw for draw in self.task.draws} if self.task else {}
 
     @cached_property
@@ -78,7 +77,6 @@ class BreakpointSubject:
 
     @cached_property
     def world(self) -> ResolvedWorld | None:
-        """The world as the task says it."""
         if self.task is None:
             return None
         things: dict[str, set[str]] = {}

@@ -102,7 +102,7 @@ class Watcher:
             yield Stop(self.ticks + 1 + int(row), each, tuple((name, float(of[row])) for name, of in columns))
 
     def _after(self, place: int, rows: NDArray[Any]) -> NDArray[Any]:
-        """The rows behind the last one fed before, which is 0 or False at the beginning of a run."""
+        """The rows behind the last one fed before, which is 0 or False in the beginning."""
         found = np.concatenate([[self._before[place]], rows]).astype(rows.dtype)
         self._before[place] = found[-1]
         return found
@@ -117,8 +117,7 @@ def noticing(setup: RunSetup, breakpoints: Sequence[Breakpoint]) -> RunSetup:
         return setup
     policy, task = setup.ready.policy, replace(setup.task, events=(*setup.task.events, *missing))
     tasks = tuple(task if each.name == task.name else each for each in policy.graph.tasks)
-    noticing = replace(policy, graph=replace(policy.graph, tasks=tasks))
-    return replace(setup, task=task, ready=replace(setup.ready, policy=noticing))
+    return setup.with_policy(replace(policy, graph=replace(policy.graph, tasks=tasks)))
 
 
 def watcher(breakpoints: Sequence[Breakpoint], setup: RunSetup) -> Watcher:
@@ -154,7 +153,6 @@ class Transmissions:
     """
 
     def __init__(self, asked: Sequence[Transmission], graph: Graph, mind: Hierarchy) -> None:
-        """The hierarchy is of the graph, and nothing else makes its skills compute."""
         self._asked = asked
         self._begins: set[int] = set()
         self._flows = EdgeFlows(graph, mind, self._rows, self._begins) if asked else None
@@ -195,7 +193,6 @@ def _weights(flows: EdgeFlows, flow: EdgeFlow, asked: Transmission) -> NDArray[n
 
 
 def recording_subject(of: About, mind: Bundle) -> BreakpointSubject:
-    """The subject of a recording's breakpoints, made with the mind of this bundle."""
     return BreakpointSubject.of_recording(mind.graph, of.master, of.sensors, recorded_task(of, mind))
 
 
@@ -205,14 +202,14 @@ class RecordingWatcher:
     def __init__(self, breakpoints: Sequence[Breakpoint], of: About, mind: Bundle) -> None:
         """WeightsError or ProcedureError where a skill of the bundle cannot be made ready."""
         ready, task = hierarchy(mind.policy, mind.procedures, of.master), recorded_task(of, mind)
-        events = (*robot_events(of.sensors), *(task.events if task else ()))
+        events: tuple[EventKind | RobotEvent, ...] = (*robot_events(of.sensors), *(task.events if task else ()))
         self._watcher = Watcher(breakpoints, events, mind.graph, ready)
         self._drawn = drawn_numbers(task.draws, of.world.seed) if task and of.world else {}
         self._before = np.zeros((1, 1 + len(of.sensors)), bool)  # whether it had to stop, and the faults
         self._times = np.zeros((1, 2 + len(of.sensors)), np.int64)
 
     def feed(self, rows: NDArray[Any], readings: NDArray[np.float32]) -> list[Stop]:
-        """All stops in the rows that follow, with the readings [rows, width] as the skills had them."""
+        """The readings [rows, width] are as the skills had them."""
         facts = np.concatenate([self._before, np.column_stack([rows["stopped"], rows["faults"]]) != 0])
         begins = facts[1:] & ~facts[:-1]  # it stops, and the fault of each sensor
         begins = np.insert(begins.astype(np.int64), 1, begins[:, 1:].sum(axis=1), axis=1)  # and any fault

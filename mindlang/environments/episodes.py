@@ -58,7 +58,6 @@ class Episodes:
     _scores: NDArray[np.float64] = field(init=False)
 
     def __post_init__(self) -> None:
-        """Begin all lanes with the seed 0."""
         self.seeds, self._scores = np.zeros(self.lanes.count, np.uint64), np.zeros(self.lanes.count)
 
     def begin(self, lanes: Mask, seeds: ArrayLike) -> None:
@@ -187,7 +186,6 @@ def check_render_mode(mode: str | None, metadata: Mapping[str, Any]) -> None:
 
 
 def unit_box(length: int) -> Box:
-    """The space of `length` numbers in 0..1."""
     return Box(0.0, 1.0, (length,), np.float32)
 
 

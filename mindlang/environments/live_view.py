@@ -82,7 +82,6 @@ class LiveView:
 
 
 def _about(episodes: Episodes, seed: int) -> About:
-    """The header of the rows of the episode that has just begun."""
     graph, world = episodes.setup.ready.policy.graph, episodes.lanes.world_columns(0)
     things = world["things"]
     begun = world_of(episodes.setup.task, seed, episodes.lanes.boxes(0), world["pose"], things[:, :-1], things[:, -1])

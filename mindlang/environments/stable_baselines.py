@@ -30,7 +30,6 @@ class StableBaselinesEnv(VecEnv):
         return self._seeds
 
     def reset(self) -> Any:
-        """The first observations."""
         given = self._seeds if any(seed is not None for seed in self._seeds) else None
         seen, infos = self.env.reset(seed=given)
         self.reset_infos = [{"layout": int(layout)} for layout in infos["layout"]]
@@ -38,7 +37,6 @@ class StableBaselinesEnv(VecEnv):
         return seen
 
     def step_async(self, actions: Any) -> None:
-        """Keep the actions for `step_wait`."""
         self._actions = actions
 
     def step_wait(self) -> Any:
@@ -55,11 +53,9 @@ class StableBaselinesEnv(VecEnv):
         return seen, rewards.astype(np.float32), terminated | truncated, infos
 
     def close(self) -> None:
-        """Close the environment."""
         self.env.close()
 
     def get_images(self) -> Sequence[Any]:
-        """The worlds as images, where the environment renders them."""
         return self.env.render() or [None] * self.num_envs
 
     def get_attr(self, attr_name: str, indices: Indices = None) -> list[Any]:
@@ -75,5 +71,4 @@ class StableBaselinesEnv(VecEnv):
         raise AttributeError(f"{method_name} cannot be called for some robots: they share one environment")
 
     def env_is_wrapped(self, wrapper_class: type, indices: Indices = None) -> list[bool]:
-        """No robot's environment is."""
         return [False for _ in self._get_indices(indices)]

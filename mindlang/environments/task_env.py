@@ -91,6 +91,5 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
         return self._view.address if self._view else None
 
     def close(self) -> None:
-        """End the page, if there is one."""
         if self._view:
             self._view.close()

@@ -112,7 +112,6 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
         return self._episodes.outcome(lane) | {"layout": self._episodes.seeds[lane]}
 
     def _begun(self, lanes: Mask, infos: dict[str, Any]) -> dict[str, Any]:
-        """These infos, with the layouts of the robots whose episodes have just begun."""
         for lane in np.flatnonzero(lanes).tolist():
             infos = self._add_info(infos, {"layout": self._episodes.seeds[lane]}, lane)
         return infos

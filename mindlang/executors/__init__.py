@@ -31,7 +31,6 @@ class Where:
     argument: str
 
     def __str__(self) -> str:
-        """The words of --on."""
         return f"{self.kind}:{self.argument}"
 
     def begin(self, assignment: Assignment, say: Callable[[str], object] = lambda line: None) -> JobExecutor:
@@ -84,5 +83,4 @@ def where(text: str) -> Where | None:
 
 
 def kinds_by_usage() -> dict[str, str]:
-    """The usage of each kind, by its name."""
     return {kind: import_module(f"{__name__}.{kind}").USAGE for kind in KINDS}

@@ -41,6 +41,7 @@ DONE, FAILED, REFUSED = "done", "failed", "refused"  # how an answer begins
 PLACE = re.compile(r"^in <[^>]*>: ")  # in which of its objects Dask has failed
 SHOWN_REASON_CHARACTERS = 300  # of why nobody answers
 
+_thread = local()  # with the scorers of a worker's thread, by the assignment
 WireAnswer = tuple[str, bytes] | tuple[str, str, str]  # built-ins alone: whoever has no mindlang can read them
 
 
@@ -101,7 +102,12 @@ class ClusterJobs(JobExecutor):
     def workers(self) -> int:
         """The number of jobs that can be at work at once: the threads of all workers that are connected."""
         if (now := monotonic()) - self._looked >= LOOK_SECONDS:
-            self._slots, self._looked = self._found_slots(), now
+            if self._client.status != "running":
+                raise self._gone()
+            try:
+                self._slots, self._looked = sum(self._client.nthreads().values()), now
+            except (OSError, RuntimeError, CancelledError) as error:
+                raise self._gone() from error
             self._tell(now)
         return self._slots
 
@@ -148,20 +154,10 @@ class ClusterJobs(JobExecutor):
                 return Failed(f"a worker at {self._address} is of another build: {message}", hint)
         return Failed(f"a worker of {self._address} answers with something else", INSTALL)
 
-    def _found_slots(self) -> int:
-        """The threads of all workers; WorkError where the scheduler does not answer."""
-        if self._client.status != "running":
-            raise self._gone()
-        try:
-            return sum(self._client.nthreads().values())
-        except (OSError, RuntimeError, CancelledError) as error:
-            raise self._gone() from error
-
     def _gone(self) -> WorkError:
         return WorkError(f"the scheduler at {self._address} is gone", "begin it again, and its workers")
 
     def _tell(self, now: float) -> None:
-        """Say that there is no worker, and later that there is one."""
         if self._slots:
             self.has_begun = True
             if self._has_said:
@@ -190,7 +186,9 @@ def answer_here(build: Build, assignment: bytes, work: bytes) -> WireAnswer:
     """The answer of a thread of a worker to a job; REFUSED where the job comes from another build."""
     if differs := difference(build, cluster_build()):
         return REFUSED, differs, "install the same wheel there, and the same versions of what it needs"
-    found = jobs.answer(lambda: _scorers.of(assignment), pickle.loads(work))
+    if not hasattr(_thread, "scorer_of"):
+        _thread.scorer_of = lru_cache(KEPT_SCORERS)(_scorer)
+    found = jobs.answer(lambda: _thread.scorer_of(assignment), pickle.loads(work))
     return (DONE, pickle.dumps(found)) if isinstance(found, Done) else (FAILED, found.message, found.hint)
 
 
@@ -210,13 +208,3 @@ def _scorer(assignment: bytes) -> Any:
     scorer = jobs.JobScorer(rollout, processes)
     finalize(scorer, processes.close)
     return scorer
-
-
-class Scorers(local):
-    """The scorers of each thread of a worker, by the assignment."""
-
-    def __init__(self) -> None:
-        self.of = lru_cache(KEPT_SCORERS)(_scorer)
-
-
-_scorers = Scorers()

@@ -68,7 +68,6 @@ def sbatch(path: str) -> tuple[str, str]:
 
 
 def destination(argument: str) -> Destination:
-    """The destination in an argument of `dask:`."""
     place, _, how = argument.partition(",")
     return Destination(place, is_trusted=True) if how == TRUSTED else Destination(place, how)
 
@@ -133,7 +132,6 @@ def _security_of(there: Destination, address: str) -> "Security":
 
 
 def _address_in(path: Path) -> str:
-    """The address in a scheduler file."""
     try:
         data = json.loads(read_whole(path, MAX_FILE_BYTES))
     except FileNotFoundError:

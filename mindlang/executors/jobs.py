@@ -5,7 +5,7 @@ words, why it was not done. Genomes × seeds become jobs, whose results are the 
 """
 
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
@@ -26,8 +26,7 @@ from mindrun.graph.run_scores import Scores
 from mindrun.kinds.procedure_text import FILES
 from mindrun.train.attempt import Segment, Stretch, advance
 from mindrun.train.lesson_state import Course
-from mindrun.train.population import Genomes
-from mindrun.train.scoring import is_one_world
+from mindrun.train.scoring import WrappedScorer
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
@@ -88,7 +87,6 @@ class Done:
     tally: Tally
 
     def count_in(self, scorer: Any) -> None:
-        """Add what was counted elsewhere to what a scorer has counted."""
         if len(self.tally):
             scorer.add(self.tally)
 
@@ -125,10 +123,11 @@ def rollout_of(assignment: Assignment, threads: int) -> "Rollout":
     bundle = unpack(assignment.bundle)
     with tempfile.TemporaryDirectory(prefix="mind-work-") as folder:
         for name, content in bundle.procedures.items():
-            is_text = isinstance(content, str)
-            path = Path(folder, f"{name.replace('.', '/')}.py" if is_text else name.removeprefix(FILES))
+            if isinstance(content, str):
+                name, content = f"{name.replace('.', '/')}.py", content.encode()
+            path = Path(folder, name.removeprefix(FILES))
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(content.encode() if isinstance(content, str) else content)
+            path.write_bytes(content)
         cast = bundle.policy, assignment.task, assignment.master, assignment.learners
         rollout: Rollout = rollout_for(*cast, procedures=Path(folder), interrupt=assignment.interrupt, workers=threads)
         rollout.compile()
@@ -165,7 +164,6 @@ class JobExecutor:
         return len(self._open) < self.workers
 
     def submit(self, number: int, work: Work) -> None:
-        """Have a job done."""
         self._ask(Job(number, work))
 
     def next_result(self) -> tuple[int, Done] | None:
@@ -216,15 +214,12 @@ class StretchExecutor:
     scorer: Any = None
 
     def has_room(self) -> bool:
-        """True if a worker would wait without another stretch."""
         return self.jobs.has_room()
 
     def submit(self, job: int, stretch: Stretch) -> None:
-        """Have a stretch done."""
         self.jobs.submit(job, partial(_advance, self.course, stretch))
 
     def next_result(self) -> tuple[int, Segment] | None:
-        """The number of a job and its segment; None after POLL_SECONDS without one."""
         if (taken := self.jobs.next_result()) is None:
             return None
         job, done = taken
@@ -244,31 +239,22 @@ def refuse_without(packages: tuple[str, ...], who: str, extra: str) -> None:
             raise MindError(f"{who} {name.replace('_', '-')}, which is not installed", hint)
 
 
-class JobScorer:
+class JobScorer(WrappedScorer):
     """Scores as `rollout` would, to the bit, by any workers: a result depends on its genome and its seed alone."""
 
     def __init__(self, rollout: Any, jobs: JobExecutor) -> None:
-        self.rollout, self.jobs = rollout, jobs
-        self.task: Task = rollout.task
-        self.genome_length: int = rollout.genome_length
-        self.is_one_world = is_one_world(rollout)
+        super().__init__(rollout)
+        self.jobs = jobs
         self._seconds: float | None = None  # that a run takes, by the last job
         self._asked = 0  # the number of the last job: one that was given up may still be answered
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Notes for the user on the runs so far."""
         notes: tuple[str, ...] = self.rollout.notes
         return notes
 
     def make_again(self, genome: NDArray[np.float32], seed: int) -> None:
-        """Make a run twice here, where it may not be the same again."""
         self.rollout.make_again(genome, seed)
-
-    def draw(self, count: int, rng: np.random.Generator) -> Genomes:
-        """Random genomes [count, genome_length] for learning to begin with."""
-        genomes: Genomes = self.rollout.draw(count, rng)
-        return genomes
 
     def score(
         self,
@@ -285,28 +271,28 @@ class JobScorer:
             raise ValueError("a genome has weights that are not finite numbers")
         genomes, words = np.ascontiguousarray(genomes, np.float32), np.array(seeds, np.uint64)
         whole = empty_scores(len(genomes), len(words), self.task)
-        blocks, open_jobs = Blocks(len(genomes), len(words)), dict[int, Block]()
-        while blocks.left or open_jobs:
-            while blocks.left and self.jobs.has_room():
-                block = blocks.next(runs_in_a_job(genomes.shape[0] * len(words), self.jobs.workers, self._seconds))
+        size = lambda: runs_in_a_job(len(genomes) * len(words), self.jobs.workers, self._seconds)  # noqa: E731
+        left, open_jobs = blocks(len(genomes), len(words), size), dict[int, Block]()
+        block = next(left, None)
+        while block or open_jobs:
+            while block and self.jobs.has_room():
                 self._asked += 1
                 self.jobs.submit(self._asked, partial(_score, genomes[block.genomes], words[block.seeds], ticks))
                 open_jobs[self._asked] = block
-            if (taken := self.jobs.next_result()) is not None and (block_done := open_jobs.pop(taken[0], None)):
+                block = next(left, None)
+            if (taken := self.jobs.next_result()) is not None and (answered := open_jobs.pop(taken[0], None)):
                 done = taken[1]
                 done.count_in(self.rollout)
-                self._seconds = done.seconds / block_done.runs
-                write_scores(block_done, done.result, whole)
-                ran(block_done.runs)
+                self._seconds = done.seconds / answered.runs
+                write_scores(answered, done.result, whole)
+                ran(answered.runs)
         return whole
 
     def tally(self) -> Tally:
-        """The counts of all workers beside the results."""
         return tally_of(self.rollout)
 
 
 def _score(genomes: NDArray[np.float32], seeds: NDArray[np.uint64], ticks: int | None, scorer: Any) -> Scores:
-    """Every genome [genomes, weights] on every seed, no longer than so many ticks."""
     scores: Scores = scorer.score(genomes, seeds, ticks=ticks)
     return scores
 
@@ -320,7 +306,6 @@ class Block:
 
     @property
     def runs(self) -> int:
-        """The number of runs."""
         return int((self.genomes.stop - self.genomes.start) * (self.seeds.stop - self.seeds.start))
 
 
@@ -333,39 +318,25 @@ def runs_in_a_job(runs: int, workers: int, seconds: float | None) -> int:
     return max(1, ceil(min(max(share, fewest), most)))
 
 
-class Blocks:
-    """Genomes × seeds cut into blocks: whole genomes while a job is for at least as many runs as there are seeds."""
-
-    def __init__(self, genomes: int, seeds: int) -> None:
-        self._genomes, self._seeds, self._done = genomes, seeds, 0
-
-    @property
-    def left(self) -> int:
-        """The number of runs that are left."""
-        return self._genomes * self._seeds - self._done
-
-    def next(self, runs: int) -> Block:
-        """The next block, of about so many runs, at least one."""
-        genome, seed = divmod(self._done, self._seeds)
-        if seed == 0 and runs >= self._seeds:
-            last = min(self._genomes, genome + runs // self._seeds)
-            block = Block(slice(genome, last), slice(0, self._seeds))
+def blocks(genomes: int, seeds: int, size: Callable[[], int]) -> Iterator[Block]:
+    """Genomes × seeds cut into blocks, of about `size()` runs each: whole genomes where these are all seeds or more."""
+    done = 0
+    while done < genomes * seeds:
+        (genome, seed), runs = divmod(done, seeds), size()
+        if seed == 0 and runs >= seeds:
+            block = Block(slice(genome, min(genomes, genome + runs // seeds)), slice(0, seeds))
         else:
-            block = Block(slice(genome, genome + 1), slice(seed, min(self._seeds, seed + max(1, runs))))
-        self._done += block.runs
-        return block
+            block = Block(slice(genome, genome + 1), slice(seed, min(seeds, seed + runs)))
+        done += block.runs
+        yield block
 
 
 def empty_scores(genomes: int, seeds: int, task: Task) -> Scores:
-    """Arrays of zeros for the scores of all genomes on all seeds."""
     more = {"by_line": (max(1, len(task.rewards)),), "by_event": (len(task.events),)}
-    whole: dict[str, NDArray[Any]] = {}
-    for name in (*SUMMED, *COUNTED):
-        whole[name] = np.zeros((genomes, seeds, *more.get(name, ())), np.float64 if name in SUMMED else np.int64)
-    return Scores(**whole)
+    types = dict.fromkeys(SUMMED, np.float64) | dict.fromkeys(COUNTED, np.int64)
+    return Scores(**{name: np.zeros((genomes, seeds, *more.get(name, ())), of) for name, of in types.items()})
 
 
 def write_scores(block: Block, part: Any, whole: Scores) -> None:
-    """Write the scores of a block into those of all genomes and seeds."""
     for name in (*SUMMED, *COUNTED):
         getattr(whole, name)[block.genomes, block.seeds] = getattr(part, name)

@@ -39,7 +39,6 @@ def flaw(argument: str) -> str:
 
 
 def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> "ProcessJobs":
-    """An executor on so many processes."""
     count = int(argument)
     return ProcessJobs(count, max(1, cores() // count), assignment)
 
@@ -57,11 +56,9 @@ class ProcessJobs(JobExecutor):
 
     @property
     def workers(self) -> int:
-        """The number of processes."""
         return len(self.members)
 
     def close(self) -> None:
-        """End all processes, whatever they do."""
         for each in self.members:
             each.kill()
         for each in self.members:
@@ -90,7 +87,6 @@ class Member:
 
     @property
     def process(self) -> SpawnProcess | None:
-        """The process; None where none has begun."""
         return self._context.process if self._pool is not None else None
 
     def begin(self) -> ProcessPoolExecutor:
@@ -102,7 +98,6 @@ class Member:
         return self._pool
 
     def submit(self, work: Work) -> "Future[Done | Failed]":
-        """Have the process do a job."""
         try:
             return self.begin().submit(_answer, work)
         except BrokenProcessPool:  # it has ended since its last job
@@ -138,7 +133,6 @@ class Spawning(SpawnContext):
     process: SpawnProcess
 
     def Process(self, *args: Any, **named: Any) -> SpawnProcess:  # type: ignore[override]  # noqa: N802
-        """A process that is to be begun."""
         self.process = SpawnProcess(*args, **named)
         return self.process
 
@@ -180,5 +174,4 @@ def _load() -> None:
 
 
 def _answer(work: Work) -> Done | Failed:
-    """The answer to a job, in the process."""
     return jobs.answer(_scorer, work)

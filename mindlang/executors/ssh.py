@@ -38,7 +38,6 @@ class Machine:
         return {**OPTIONS, "username": self.user} if self.user else OPTIONS
 
     async def run(self, command: str, given: str = "") -> Any:
-        """Run a command there with `given` on its standard input, and return how it ended."""
         import asyncssh
 
         async with asyncssh.connect(self.host, **self.options) as connection:
@@ -60,7 +59,6 @@ class Machine:
 
 
 def machines(argument: str) -> list[Machine]:
-    """The machines of a list."""
     found = []
     for each in argument.split(","):
         where, _, python = each.partition(":")

@@ -121,7 +121,6 @@ class Entry:
         return unquote(name.removeprefix(FILE_ORIGIN)) if name.startswith(FILE_ORIGIN) else ""
 
     def __str__(self) -> str:
-        """The line."""
         signature, taught = self.signature, self.taught
         parts = [
             f"{self.skill} is {signature.function}",
@@ -173,13 +172,12 @@ Locks = Mapping[Path, Lock]  # by the path of the lock
 
 
 def _hashed(text: str) -> tuple[tuple[str, str], ...]:
-    """The skills and the SHA-256 of their weights that stand in a line as NAME:SHA."""
+    """The skills and the SHA-256 of their weights in NAME:SHA."""
     pairs = (part.rpartition(":") for part in text.split())
     return tuple((skill, weights) for skill, _, weights in pairs)
 
 
 def lock_path(source: Path) -> Path:
-    """The lock of a `.mind` file."""
     return source.with_suffix(".lock")
 
 
@@ -250,7 +248,7 @@ def _worlds(path: Path, lines: Sequence[tuple[int, str]]) -> dict[str, TrainingW
 
 
 def locks_of(sources: Iterable[Path]) -> dict[Path, dict[str, Entry]]:
-    """The locks of files, by their paths; LockError where one is damaged."""
+    """By their paths; LockError where one is damaged."""
     return {path: read_lock(path) for path in map(lock_path, sources)}
 
 

@@ -6,7 +6,6 @@ import os
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -78,15 +77,16 @@ def record(
     weights those were. Where they are `accepted` they were taught elsewhere. No file of weights is removed: that is for
     `mindc gc`.
     """
-    weights = {**others, **learnt}
+    hashes = {skill: digest(weights) for skill, weights in {**others, **learnt}.items()}
     entries = {}
     for skill in learnt:
-        before = begun_with.get(skill)
+        before, below = begun_with.get(skill), reachable(graph, skill)
         earlier = before.worlds if before else ()  # of the same lesson only the last counts
         worlds = (*(each for each in earlier if each.lesson != world.lesson), world)
         origin = origins.get(skill, before.origin if before else None)
-        entry = _entry(path, graph, skill, weights, taught)
-        entries[skill] = replace(entry, worlds=worlds, origin=origin, accepted=accepted)
+        subskills = sorted((name, hashes[name]) for name in owners(below) if name != skill and name in hashes)
+        kept = signature(graph, below[0]), hashes[skill], taught, tuple(subskills), worlds, accepted, origin
+        entries[skill] = Entry(skill, *kept, path.parent)
     unwritten = f"the weights of {listed(entries, 'and')} cannot be written"
     with system_errors_as(LockError, unwritten), exclusive_folder(path.parent / FOLDER):
         lock = read_lock(path)
@@ -96,16 +96,7 @@ def record(
     return entries
 
 
-def _entry(path: Path, graph: Graph, skill: str, weights: Mapping[str, Weights], taught: Taught) -> Entry:
-    below = reachable(graph, skill)
-    beside = (name for name in owners(below) if name != skill and name in weights)
-    subskills = tuple(sorted((name, digest(weights[name])) for name in beside))
-    own, kept = signature(graph, below[0]), digest(weights[skill])
-    return Entry(skill, own, kept, taught, subskills, folder=path.parent)
-
-
 def digest(weights: Weights) -> str:
-    """The SHA-256 of weights as they lie in their file."""
     return sha256(to_npy(weights)).hexdigest()
 
 

@@ -50,12 +50,10 @@ class Row:
 
     @property
     def is_fine(self) -> bool:
-        """True if the skill can act."""
         return isinstance(self.status, Trained | NotLearning) and not self.damage
 
     @property
     def word(self) -> str:
-        """The status of the skill in a word or two."""
         return "damaged" if self.damage else self.status.word
 
     @property
@@ -113,7 +111,6 @@ def weights_text(row: Row) -> str:
 
 
 def made_by(taught: Taught) -> str:
-    """How a genome came about, in words."""
     how = "not taught here"
     if taught.generations:
         how = f"{taught.generations} generations of {taught.population} from seed {taught.seed}"
@@ -122,7 +119,6 @@ def made_by(taught: Taught) -> str:
 
 
 def as_data(row: Row) -> dict[str, Any]:
-    """A row as plain data."""
     data: dict[str, Any] = {"skill": row.skill, "status": row.word, "frozen": row.is_frozen, "needed": row.is_needed}
     data["remarks"] = [*row.remarks]
     if row.like:

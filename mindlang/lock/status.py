@@ -43,12 +43,11 @@ class Trained:
 
     @property
     def is_elsewhere(self) -> bool:
-        """True if the world in which it was taught is another now."""
+        """The world in which it was taught is another now."""
         return bool(self.changes)
 
     @property
     def word(self) -> str:
-        """The status in a word or two."""
         return "taught elsewhere" if self.is_elsewhere else "trained"
 
 
@@ -101,7 +100,6 @@ class _Standing:
     folder: Path | None
 
     def of(self, index: int) -> Status:
-        """The status of the skill with an index."""
         skill = self.graph.skills[index]
         if genes(skill) == 0:
             return NotLearning()
@@ -189,7 +187,6 @@ class _Standing:
 
     @cached_property
     def _teaching(self) -> dict[str, list[Lesson]]:
-        """The lessons that teach a skill, by its name."""
         found: dict[str, list[Lesson]] = defaultdict(list)
         for lesson in self.graph.lessons:
             for skill in learners(self.graph, lesson):

@@ -87,12 +87,10 @@ class TrainingWorld:
 
     @property
     def lesson(self) -> LessonKey:
-        """The lesson that was taught in it."""
         lesson = self.facts["lesson"]
         return LessonKey(lesson["task"], lesson["master"], lesson["with_subskills"])
 
     def text(self) -> str:
-        """The block of the world in a lock."""
         return "\n".join([f"world {self.name}", *self._lines()])
 
     def _lines(self) -> Iterator[str]:
@@ -132,7 +130,6 @@ def _no_number(text: str) -> NoReturn:
 
 
 def _fits(value: Any, form: Any) -> bool:
-    """True if a value has a form."""
     try:
         convert(value, form, dec_hook=_checked)
     except (ValidationError, OverflowError):

@@ -23,11 +23,12 @@ def changes(old: TrainingWorld, now: TrainingWorld) -> list[str]:
 def _changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
     if old["tick"] != now["tick"]:
         yield f"taught with tick {_tick(old['tick'])}, now {_tick(now['tick'])}"
-    was, is_ = old.get("physics"), now.get("physics")
-    if was and is_ and was["pymunk"] != is_["pymunk"]:
-        yield f"taught with pymunk {was['pymunk']}, now {is_['pymunk']}"
-    if was and is_ and was["world"] != is_["world"]:
-        yield f"taught in version {was['world']} of the simulated world, now {is_['world']}"
+    if "physics" in old and "physics" in now:
+        was, is_ = old["physics"], now["physics"]
+        if was["pymunk"] != is_["pymunk"]:
+            yield f"taught with pymunk {was['pymunk']}, now {is_['pymunk']}"
+        if was["world"] != is_["world"]:
+            yield f"taught in version {was['world']} of the simulated world, now {is_['world']}"
     yield from _kind_changes("body", "body", old["body"], now["body"])
     for subject in sorted(old.keys() & now.keys()):
         noun, _, name = subject.partition(" ")
@@ -108,8 +109,8 @@ def _claw_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[st
 
 def _task_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
     told = [*_scene_changes(old["task"], now["task"])] if "task" in old and "task" in now else []
-    gone, new = _gone_and_new(old, now, "varying")
-    told += [*(f"no longer {each}" for each in gone), *(f"{each} is new" for each in new)]
+    varying = _listed_changes(old, now, "varying")
+    told += [f"no longer {each}" if is_gone else f"{each} is new" for each, is_gone in varying]
     told += _reward_changes(old["rewards"], now["rewards"])
     yield from (f"its task has changed: {change}" for change in told)
     if "environment" in old and "environment" in now and old["environment"] != now["environment"]:
@@ -119,10 +120,11 @@ def _task_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[st
         yield f"its task has changed: {_start(after)}, before {_start(before)}"
 
 
-def _gone_and_new(old: Mapping[str, Any], now: Mapping[str, Any], key: str) -> tuple[list[str], list[str]]:
-    """The texts of a list that only one of the two has."""
+def _listed_changes(old: Mapping[str, Any], now: Mapping[str, Any], key: str) -> Iterator[tuple[str, bool]]:
+    """The texts of a list that only one of the two has, each with whether it is gone."""
     before, after = set(old.get(key, ())), set(now.get(key, ()))
-    return sorted(before - after), sorted(after - before)
+    yield from ((each, True) for each in sorted(before - after))
+    yield from ((each, False) for each in sorted(after - before))
 
 
 def _is_another_start(old: Any, now: Any) -> bool:
@@ -151,12 +153,10 @@ def _scene_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[s
                 yield f"in {of}{before}, now {after.partition(' ')[2]}"
     if old["ticks"] != now["ticks"]:
         yield f"lasts {old['ticks']} ticks, now {now['ticks']}"
-    for verb in ("ends", "succeeds"):
-        gone, new = _gone_and_new(old, now, verb)
-        for end, said in [*((end, f"no longer {verb}") for end in gone), *((end, verb) for end in new)]:
-            yield f"{said} {end}" if end.startswith("when ") else f"{said} on {end}"
-    gone, new = _gone_and_new(old, now, "opens")
-    yield from (*(f"no longer opens {each}" for each in gone), *(f"opens {each}" for each in new))
+    for verb in ("ends", "succeeds", "opens"):
+        for each, is_gone in _listed_changes(old, now, verb):
+            on = "" if verb == "opens" or each.startswith("when ") else "on "
+            yield f"{'no longer ' * is_gone}{verb} {on}{each}"
 
 
 def _reward_changes(old: Sequence[Sequence[str]], now: Sequence[Sequence[str]]) -> Iterator[str]:

@@ -76,10 +76,7 @@ class Worlds:
         skills = reachable(self.graph, master)
         yield "tick", self.graph.tick
         yield "body", encode(self.graph.body)
-        ends, successes = (sorted(self._ends(task, succeeds)) for succeeds in (False, True))
-        opens = sorted(self._ends(task, False, True))
-        said = {"scene": encode(task.scene), "ticks": task.ticks, "ends": ends}
-        yield "task", said | ({"succeeds": successes} if successes else {}) | ({"opens": opens} if opens else {})
+        yield "task", {"scene": encode(task.scene), "ticks": task.ticks, **self._ends(task)}
         if path := module_beside(task.scene.environment, self.folder):
             yield "environment", {"text": sha256(path.read_bytes()).hexdigest()}
         if not task.scene.environment:
@@ -127,7 +124,6 @@ class Worlds:
 
     @cached_property
     def _names(self) -> list[str]:
-        """The sensor or memory of every reading, by its index."""
         return [name for name, _ in self.graph.readings]
 
     def _skill(self, skill: Skill) -> dict[str, Any]:
@@ -148,7 +144,6 @@ class Worlds:
         return {**function, "reads": reads, "answers": answers, **sends}
 
     def _sends(self, edge: Edge) -> str:
-        """The target, value, gate and cut of an edge, as they are written."""
         words = [self.graph.named(edge.to, edge.target)]
         words += [f"over {' and '.join(self.graph.named(*sink) for sink in edge.over)}"] * bool(edge.over)
         words += [f"at {infix(edge.value, self._leaf)}"] if edge.output is None else []
@@ -179,15 +174,17 @@ class Worlds:
             data = b""
         return sha256(data).hexdigest() if data else ""
 
-    def _ends(self, task: Task, succeeds: bool, opens: bool = False) -> Iterator[str]:
-        """The ends of a run that are a success, or those that are none; or what `opens` something, with its name."""
+    def _ends(self, task: Task) -> dict[str, list[str]]:
+        """The ends of a run by their verbs; what `opens` something begins with its name."""
+        found: dict[str, list[str]] = {"ends": []}
         for end in task.ends:
-            if end.succeeds == succeeds and bool(end.opens) == opens:
-                times = f"{end.times} " if end.times > 1 else ""
-                on = f"{end.opens} on " if opens else ""
-                event = "" if end.event is None else f"{on}{times}{phrase(task.events[end.event])}"
-                when = f"{end.opens} when " if opens else "when "
-                yield event or f"{when}{infix(end.when or (), self._leaf_of(task))}"
+            if end.event is None:
+                cause = f"when {infix(end.when or (), self._leaf_of(task))}"
+            else:
+                cause = "on " * bool(end.opens) + f"{end.times} " * (end.times > 1) + phrase(task.events[end.event])
+            verb = "opens" if end.opens else "succeeds" if end.succeeds else "ends"
+            found.setdefault(verb, []).append(f"{end.opens} {cause}".lstrip())
+        return {verb: sorted(causes) for verb, causes in found.items()}
 
     def _drawn(self, task: Task) -> Iterator[str]:
         """The numbers that a task draws, and the things that these place or that they let be there, as lines of it."""
@@ -219,7 +216,6 @@ class Worlds:
         return leaf
 
     def _reward(self, task: Task, reward: Reward) -> Iterator[str]:
-        """A reward's amount, and what it is paid for."""
         leaf = self._leaf_of(task)
         yield infix(reward.amount, leaf)
         words = ["per tick" if reward.on is None else f"on {phrase(task.events[reward.on])}"]

@@ -29,7 +29,7 @@ class Benched:
     scores: Scores
 
     def figures(self) -> dict[str, NDArray[np.float64]]:
-        """The figures of each run [runs], by name."""
+        """By name, of each run [runs]."""
         counted = {events(self.task)[event]: self.scores.by_event[0, :, event] for event in self.task.counts}
         success = {SUCCESS: succeeded(self.task, self.scores)[0]} if self.task.can_succeed else {}
         found = {SCORE: self.scores.total[0], **success, **counted}
@@ -47,7 +47,6 @@ class MindComparison:
 
     @property
     def conclusion(self) -> str:
-        """The sentence that may be said of it."""
         said = one_world_conclusion if self.is_one_world else conclusion
         return said(self.first.name, self.second.name, self.second.task.name, self.differences)
 

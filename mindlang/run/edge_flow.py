@@ -146,7 +146,6 @@ class EdgeFlows:
             yield part, self.flow_at(rows[part])
 
     def transmitted(self, rows: Places) -> Singles:
-        """The influence over each edge [rows, edges], 0 to 1."""
         found = np.zeros((len(rows), len(self.links)), np.float32)
         for part, flow in self.parts(rows):
             found[part] = flow.transmitted
@@ -154,7 +153,6 @@ class EdgeFlows:
 
     @property
     def kept_bytes(self) -> int:
-        """The number of bytes kept of rows that have been asked for."""
         return sum(block.nbytes for kept in self._kept.values() for block in kept.blocks)
 
     def go_on(self, end: int) -> None:

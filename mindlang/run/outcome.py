@@ -23,7 +23,6 @@ OTHERWISE = {LOST: "flight out of bounds", BROKEN_OFF: "its environment"}  # bey
 
 
 def events(task: Task) -> list[str]:
-    """The events of a task as they are written."""
     return [phrase(event) for event in task.events]
 
 
@@ -83,7 +82,6 @@ def data_so_far(
 
 
 def rewards_data(task: Task, paid: NDArray[np.float64]) -> dict[str, Any]:
-    """`score` and `by_line` of what each line has paid."""
     by_line = paid_by_text(task.rewards, paid)
     return {"score": finite(score_of(paid)), "by_line": {text: finite(value) for text, value in by_line.items()}}
 
@@ -106,9 +104,8 @@ def bench_data(
     """
     totals, ticks = scores.total[0], int(scores.ticks.sum())
     scored = np.flatnonzero(np.isfinite(totals))
-    best, worst = (
-        (int(scored[place(totals[scored])]) for place in (np.argmax, np.argmin)) if len(scored) else (None,) * 2
-    )
+    found = [int(scored[place(totals[scored])]) for place in (np.argmax, np.argmin)] if len(scored) else [None, None]
+    named = dict(zip(("best", "worst"), found, strict=True))
     happened, ended = events(task), Counter(scores.ended_by[0].tolist())
     numbers = [*range(len(task.ends)), *OTHERWISE, GOING_ON]
     return {
@@ -120,11 +117,13 @@ def bench_data(
         "runtime_mean": float(scores.ticks[0].mean() / task.ticks),
         "ended": {ended_by(task, number) or TIME: ended[number] for number in numbers if ended[number]},
         **_spread("score_", totals),
-        "best_run": None if best is None else best + 1,
-        "worst_run": None if worst is None else worst + 1,
-        "best_seed": None if best is None else int(seeds[best]),
-        "worst_seed": None if worst is None else int(seeds[worst]),
-        **(_drawn_in(task, seeds, best=best, worst=worst) if task.draws else {}),
+        **{f"{name}_run": None if run is None else run + 1 for name, run in named.items()},
+        **{f"{name}_seed": None if run is None else int(seeds[run]) for name, run in named.items()},
+        **{
+            f"{name}_drawn": None if run is None else dict(drawn_numbers(task.draws, seeds[run]))
+            for name, run in named.items()
+            if task.draws
+        },
         "faults": int(scores.faults.sum()),
         "ticks": ticks,
         "seconds": round(seconds, 3),
@@ -132,12 +131,6 @@ def bench_data(
         "cpu_seconds": None if cpu_seconds is None else round(cpu_seconds, 3),
         "ticks_per_cpu_second": None if cpu_seconds is None else round(ticks / max(cpu_seconds, 1e-3)),
     }
-
-
-def _drawn_in(task: Task, seeds: Sequence[int], **runs: int | None) -> dict[str, Any]:
-    """The numbers that were drawn for the best and the worst run; None where there is none."""
-    drawn = {name: None if run is None else dict(drawn_numbers(task.draws, seeds[run])) for name, run in runs.items()}
-    return {f"{name}_drawn": numbers for name, numbers in drawn.items()}
 
 
 def _success(runs: NDArray[np.float64]) -> dict[str, float | None]:

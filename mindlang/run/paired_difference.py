@@ -54,12 +54,10 @@ class PairedDifference:
 
     @property
     def differing(self) -> int:
-        """The number of pairs that differ."""
         return self.more + self.less
 
     @property
     def leaves_zero_out(self) -> bool:
-        """True if the interval leaves 0 out."""
         return self.low is not None and self.high is not None and not self.low <= 0 <= self.high
 
     @property

@@ -58,22 +58,18 @@ class RecordedRun:
 
     @property
     def graph(self) -> Graph:
-        """The mind."""
         return self.setup.ready.policy.graph
 
     @property
     def task(self) -> Task:
-        """The task."""
         return self.setup.task
 
     @property
     def ticks(self) -> int:
-        """The number of ticks of the run."""
         return len(self.body) - 1
 
     @property
     def drawn(self) -> Mapping[str, float]:
-        """The numbers that the task has drawn for the run, by their names."""
         return {} if self.seed is None else drawn_numbers(self.task.draws, self.seed)
 
     @property
@@ -88,7 +84,6 @@ class RecordedRun:
 
     @property
     def contents(self) -> list[Thing]:
-        """The things of the world, in the order of `things`."""
         return things_of(self.task)
 
     @property
@@ -171,7 +166,6 @@ def result_of_trace(setup: RunSetup, run: Trace, seed: int) -> RunResult:
 
 
 def record_run(setup: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:
-    """Make the run of a seed with `rollout`, and write it down."""
     return recorded(setup, trace(rollout, seed))
 
 

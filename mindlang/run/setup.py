@@ -45,7 +45,6 @@ class RunSetup:
 
     @property
     def world_notes(self) -> list[str]:
-        """A note that there is one world, where it is so."""
         said = f"nothing is drawn in {self.task.name}, so that one run is made, and any other would be the same"
         return [f"1 world: {said}"] if self.is_one_world else []
 
@@ -88,7 +87,6 @@ def ready_to_act(file: str, compiled: Compiled, master: str | None = None) -> Re
 
 
 def train_command(file: Path, ready: ReadyMind) -> str:
-    """The command that teaches the skills without weights that fit."""
     return command_line("mindc", "train", file, *untaught_skills(ready))
 
 

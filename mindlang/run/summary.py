@@ -1,6 +1,6 @@
 """The outcome of a run, of many runs, and of two minds on the same layouts, as text to read."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from mindrun.graph.draws import drawn_in_words
@@ -74,7 +74,7 @@ def _promises(found: dict[str, Any]) -> Iterator[RenderableType]:
     of = "" if runs == found.get("runs", 1) else f" in the first {runs} run{'s' * (runs != 1)}"
     head = (f"promised{of}", "held", "by it", "above it", *(["runs"] if runs > 1 else []))
     yield ""
-    yield aligned([[Text(each, "dim") for each in head], *(_promise_row(each) for each in promises)], left=(0,))
+    yield aligned(map(_promise_row, promises), (0,), head)
     for each in (each for each in promises if each.get("unfinished")):
         many = "the run" if runs == 1 else f"{each['unfinished']:,} of {runs:,} runs"
         yield Text(f"{many} ended while {each['skill']} was acting: not judged what it achieves", "dim")
@@ -101,7 +101,7 @@ def _broken_by_both(minds: Sequence[dict[str, Any]]) -> Iterator[RenderableType]
     both = [{f"{each['skill']} {each['promise']}": each for each in mind.get("promises", ())} for mind in minds]
     if names := [*(both[0] | both[1])]:
         rows: list[Row] = [[_cut(name, PROMISE_COLUMNS), *(_broken(each.get(name)) for each in both)] for name in names]
-        yield aligned([[Text(each, "dim") for each in ("promise broken in", "A", "B")], *rows], left=(0,))
+        yield aligned(rows, (0,), ("promise broken in", "A", "B"))
         yield ""
 
 
@@ -125,9 +125,8 @@ def _broken_elsewhere(
             rows.append((of, _broken(promise), _broken(others.get(worst)), where))
     if len(rows) > 1:
         room = LINE_COLUMNS - sum(2 + max(map(len, column)) for column in [*zip(*rows, strict=True)][1:])
-        cells: list[Row] = [[_cut(of, room), *row] for of, *row in rows[1:]]
         yield ""
-        yield aligned([[Text(each, "dim") for each in ("promise broken in", *heads)], *cells], left=(0, 3))
+        yield aligned(([_cut(of, room), *row] for of, *row in rows[1:]), (0, 3), ("promise broken in", *heads))
 
 
 def _broken(found: dict[str, Any] | None) -> str:
@@ -176,7 +175,7 @@ def _faults(found: dict[str, Any]) -> str:
 
 
 def _facts(*rows: tuple[str, str]) -> Text:
-    return aligned([(Text(name, "dim"), value) for name, value in rows if value], left=(1,))
+    return aligned([(Text(name, "dim"), value) for name, value in rows if value], (1,))
 
 
 def comparison_summary(found: dict[str, Any], comparison: MindComparison) -> RenderableType:
@@ -191,7 +190,6 @@ def comparison_summary(found: dict[str, Any], comparison: MindComparison) -> Ren
     ]
     told = () if is_one_world else [*comparison.differences.items()][:1]
     columns = len(head) - is_one_world  # of one run nothing is inferred
-    table = [["", *row[:columns]] for row in rows]
     return Group(
         Text.assemble((found["task"], "bold"), " in its one world" if is_one_world else f" {where}"),
         *(
@@ -199,7 +197,7 @@ def comparison_summary(found: dict[str, Any], comparison: MindComparison) -> Ren
             for place, each in zip("AB", found["minds"], strict=True)
         ),
         "",
-        aligned([["", *(Text(each, "dim") for each in head[:columns])], *table], left=(0, 1)),
+        aligned([["", *row[:columns]] for row in rows], (0, 1), ["", *head[:columns]]),
         "",
         *_broken_by_both(found["minds"]),
         *(Text(line, "dim") for each in told for line in _told(*each)),
@@ -214,7 +212,6 @@ def _figure(name: str, value: float | None) -> str:
 
 
 def _difference(name: str, found: PairedDifference) -> tuple[str, str]:
-    """The difference and its interval."""
 
     def bound(value: float) -> str:
         return f"{100 * value:.1f} %" if name == SUCCESS else amount(name, value, found)
@@ -251,7 +248,6 @@ def worlds_summary(found: dict[str, Any]) -> RenderableType:
     places = ["A", "B"] if len(minds) > 1 else ["mean"]
     taught = {each["name"]: figure(each)[0] for each in found["worlds"][0]["minds"]}
     head = ["", *(cell for place in places for cell in (place, "share", "time"))]
-    rows = [[*_world_row(row, [*taught])] for row in found["worlds"]]
     return Group(
         Text.assemble((found["task"], "bold"), f" in changed worlds, {runs:,} run{'s' * (runs != 1)} of each"),
         *(
@@ -259,7 +255,7 @@ def worlds_summary(found: dict[str, Any]) -> RenderableType:
             for place, mind in zip(("A  ", "B  ") if len(minds) > 1 else ("",), minds, strict=True)
         ),
         "",
-        aligned([[Text(each, "dim") for each in head], *rows], left=(0,)),
+        aligned([[*_world_row(row, [*taught])] for row in found["worlds"]], (0,), head),
         "",
         Text("share: of the mean as taught; time: of the task's ticks; ± is one standard error", "dim"),
         *_broken_elsewhere(("as taught", "at worst", "in"), [*_promised_in_worlds(found)]),
@@ -297,12 +293,11 @@ def credit_summary(found: dict[str, Any], credited: Mapping[str, PairedDifferenc
     name, runs, is_silent = found["figure"], found["runs"], found["left"] == "without"
     head = found["left"], "mean", "credit", f"{PERCENT} confidence"
     means = {each["skill"]: _figure(*figure(each)[:2]) for each in found["skills"]}
-    rows = [(skill, means[skill], *_difference(name, each)) for skill, each in credited.items()]
     return Group(
         _title(found).append(f", {runs:,} run{'s' * (runs != 1)} from seed {found['seed']}"),
         f"{_figure(*figure(found)[:2])} {name}",
         "",
-        aligned([[Text(each, "dim") for each in head], *rows], left=(0,)),
+        aligned([(skill, means[skill], *_difference(name, each)) for skill, each in credited.items()], (0,), head),
         "",
         Text("credit: how much more the whole mind has, on the same layouts", "dim"),
         *_broken_elsewhere(
@@ -313,9 +308,13 @@ def credit_summary(found: dict[str, Any], credited: Mapping[str, PairedDifferenc
     )
 
 
-def aligned(rows: Sequence[Row], left: Collection[int]) -> Text:
-    """A line for each row, two blanks between its columns; those in `left` are set to the left, others to the right."""
+def aligned(rows: Iterable[Row], left: Collection[int], head: Sequence[str] = ()) -> Text:
+    """A line for each row, two blanks between its columns; those in `left` are set to the left, others to the right.
+
+    Above them, dim, stands the `head`.
+    """
     cells = [[Text(cell) if isinstance(cell, str) else cell.copy() for cell in row] for row in rows]
+    cells[:0] = [[Text(cell, "dim") for cell in head]] if head else []
     for number, column in enumerate(zip(*cells, strict=True)):
         width = max(cell.cell_len for cell in column)
         for cell in column:

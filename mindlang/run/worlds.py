@@ -123,46 +123,40 @@ def _number(value: Any, factor: float, plus: float) -> Any:
 
 def _changed(graph: Graph, task: Task, parts: Sequence[Part], field: str, change: Change, who: str) -> World | None:
     """The world in which an argument of some parts is another; None where none is, or one would not be allowed."""
-    kinds, drawn, told = dict[tuple[str, str], Any](), dict[int, Variation](), list[dict[str, str]]()
+    kinds, told = dict[tuple[str, str], Any](), list[dict[str, str]]()
+    drawn: dict[tuple[str, str, str], Variation] = {(each.noun, each.of, each.argument): each for each in task.varies}
     for part in parts:
         number = next(each for each in arguments(type(part.kind)) if each.field == field)
-        place = next((i for i, v in enumerate(task.varies) if (v.noun, v.of, v.argument) == (*part[:2], field)), None)
-        if place is None:
-            was = getattr(part.kind, field)
-            now = _number(was, *change)
-            kinds[part.noun, part.name] = replace(part.kind, **{field: now})
+        variation = drawn.get((part.noun, part.name, field))
+        was = Span(variation.low, variation.high) if variation else getattr(part.kind, field)
+        now = _number(was, *change)
+        if variation:
+            drawn[part.noun, part.name, field] = replace(variation, low=now.first, high=now.last)
         else:
-            was = Span(task.varies[place].low, task.varies[place].high)
-            now = _number(was, *change)
-            drawn[place] = replace(task.varies[place], low=now.first, high=now.last)
+            kinds[part.noun, part.name] = replace(part.kind, **{field: now})
         if not fits(number.type, now):
             return None
         if was != now:
             of = REGISTERED.get(part.noun, part.noun), names()[type(part.kind)], field
             texts = {"was": argument(*of, encode(was)), "now": argument(*of, encode(now))}
             told.append({"noun": part.noun, "name": part.name, **texts})
-    varies = tuple(drawn.get(i, variation) for i, variation in enumerate(task.varies))
     if not told:
         return None
-    others = " …" * any(each["now"] != told[0]["now"] for each in told)
-    return World(f"{who} {told[0]['now']}{others}", tuple(told), _with(graph, replace(task, varies=varies), kinds))
 
-
-def _with(graph: Graph, task: Task, kinds: Mapping[tuple[str, str], Any]) -> Graph:
-    """The graph with a task in the place of that of its name, and some parts of other kinds."""
-
-    def parts(noun: str, of: tuple[Any, ...]) -> tuple[Any, ...]:
+    def other(noun: str, of: tuple[Any, ...]) -> tuple[Any, ...]:
         return tuple(replace(each, kind=kinds.get((noun, each.name), each.kind)) for each in of)
 
-    scene, things = kinds.get(("scene", ""), task.scene), parts("thing", task.things)
-    changed = replace(task, scene=scene, things=things)
-    return replace(
+    scene, things = kinds.get(("scene", ""), task.scene), other("thing", task.things)
+    changed = replace(task, scene=scene, things=things, varies=tuple(drawn.values()))
+    world = replace(
         graph,
         body=kinds.get(("body", ""), graph.body),
-        sensors=parts("sensor", graph.sensors),
-        actuators=parts("actuator", graph.actuators),
+        sensors=other("sensor", graph.sensors),
+        actuators=other("actuator", graph.actuators),
         tasks=tuple(changed if each.name == task.name else each for each in graph.tasks),
     )
+    others = " …" * any(each["now"] != told[0]["now"] for each in told)
+    return World(f"{who} {told[0]['now']}{others}", tuple(told), world)
 
 
 def figure(found: Mapping[str, Any]) -> tuple[str, float | None, float | None]:

@@ -97,7 +97,6 @@ def _folder(record: Logged) -> str:
 
 
 def _summary(record: Logged) -> "Summary":
-    """The figures of a generation that are finite, with their names."""
     from tensorboardX.proto.summary_pb2 import Summary
 
     scores = {tag: record[column] for tag, column in SCORES.items()}

@@ -19,7 +19,7 @@ from mindrun.train.scoring import Purpose, Scorer, Seeds, is_one_world, layouts,
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import LockError, Taught, read_lock
 from mindlang.lock.blobs import record
-from mindlang.lock.status import Trained, key_of, trained_weights
+from mindlang.lock.status import key_of, trained_weights
 from mindlang.lock.world_facts import Worlds
 from mindlang.number_format import short_score
 from mindlang.training.retention import Retention, retention_table, retentions
@@ -37,7 +37,6 @@ class WeightsComparison:
 
     @property
     def is_worse(self) -> bool:
-        """True if the new weights do worse."""
         return self.new < self.old
 
     def __str__(self) -> str:
@@ -77,7 +76,7 @@ def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, f
 def _put(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool, workers: int) -> Kept:
     """What has been learnt against what is in the lock, and the better of both there."""
     lesson, new, found = run.manifest.lesson, state.kept[0], None
-    old = _genome_there(run, subject)
+    old = genome_there(subject, lesson, run.manifest.learners)
     if old is not None and not np.array_equal(old, new):
         found = compare_genomes(run, scorer, np.stack([old, new]))
         seeds = verdict_layouts(run.manifest.seed, lesson.generations)  # on which the new weights have what is needed
@@ -171,17 +170,13 @@ def needed_figures(lesson: Lesson, scorer: Scorer, genome: Genomes, seeds: Seeds
     return success, ", ".join(f"{times} {phrase(event)}" for event, times in reached if event)
 
 
-def _genome_there(run: RunFolder, subject: Subject) -> Genomes | None:
-    """The weights of the learners in the lock to which the lesson goes; None where not all have some that fit."""
-    lesson, learners = run.manifest.lesson, run.manifest.learners
-    standing = subject.standing(lesson)
-    if not all(isinstance(standing.get(skill), Trained) for skill in learners):
-        return None
+def genome_there(subject: Subject, lesson: Lesson, learners: Sequence[str]) -> Genomes | None:
+    """The weights of learners in the lock to which a lesson goes; None where not all have some that fit."""
     try:
         known, _ = trained_weights(subject.graph, read_lock(subject.keep_path(lesson)), learners)
     except LockError:  # their file is gone or damaged
         return None
-    return np.concatenate([known[skill] for skill in learners])
+    return np.concatenate([known[skill] for skill in learners]) if known.keys() >= {*learners} else None
 
 
 def _record(

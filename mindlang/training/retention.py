@@ -15,6 +15,7 @@ from mindrun.train.scoring import Purpose, layouts, mark
 
 from mindlang.lock.status import key_of, key_of_taught, trained_weights
 from mindlang.number_format import short_score
+from mindlang.run.summary import aligned
 from mindlang.training.subject import Subject
 
 TOLD_LAYOUTS, KEPT_LAYOUTS = 50, 400  # on which an earlier lesson is tried, to tell of it and where it is to be kept
@@ -84,6 +85,4 @@ def retention_table(found: Sequence[Retention]) -> list[str]:
     for each in found:
         share = f"{each.after / each.before:.0%}" if each.before > 0 and isfinite(each.after) else ""
         rows.append((each.lesson.name, short_score(each.before), short_score(each.after), share))
-    name, *numbers = (max(map(len, column)) for column in zip(*rows, strict=True))
-    form = f"  {{:<{name}}}" + "".join(f"  {{:>{width}}}" for width in numbers)
-    return [form.format(*row).rstrip() for row in rows]
+    return [f"  {line}" for line in aligned(rows, left=(0,)).plain.split("\n")]

@@ -39,7 +39,6 @@ class Subject:
 
     @property
     def folder(self) -> Path:
-        """The folder of the source, with the procedures beside it."""
         return self.source.parent
 
     @property
@@ -60,16 +59,14 @@ class Subject:
 
     @property
     def trained(self) -> frozenset[str]:
-        """The skills whose weights fit."""
         return frozenset(name for name, each in status(self.graph, self.lock).items() if isinstance(each, Trained))
 
     def standing(self, lesson: Lesson) -> dict[str, Status]:
-        """The status of each learner of a lesson in the lock of `keep_path`."""
+        """Of each learner of a lesson, in the lock of `keep_path`."""
         found = status(self.graph, read_lock(self.keep_path(lesson)), self.folder)
         return {skill: found[skill] for skill in learners(self.graph, lesson)}
 
     def is_due(self, lesson: Lesson) -> bool:
-        """True if a lesson has yet to be taught."""
         return is_due(self.graph, lesson, self.standing(lesson))
 
 

@@ -34,7 +34,6 @@ class Taught:
 
     @property
     def place(self) -> Place:
-        """The task of the lesson, and the master that was in charge."""
         return self.run.manifest.lesson.task, self.run.manifest.lesson.master
 
 

@@ -1,7 +1,7 @@
 """A run of a lesson from beginning to end: the workers that score its genomes, and its result as data and in words."""
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from functools import partial
 from typing import Any
 
@@ -11,9 +11,9 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
 from mindrun.terminal.command_line import command_line
 from mindrun.train.attempt import Clock
-from mindrun.train.attempts import StretchThreads
+from mindrun.train.attempts import AttemptExecutor, StretchThreads
 from mindrun.train.kept_segments import KeptSegments, RememberingExecutor
-from mindrun.train.lesson_state import Course, LessonState, is_over
+from mindrun.train.lesson_state import LessonState, is_over
 from mindrun.train.population import founder_count
 from mindrun.train.progress import read_progress
 from mindrun.train.run_folder import WEIGHTS, RunFolder, keep_result, read_result
@@ -25,9 +25,8 @@ from mindlang.executors.jobs import JobScorer, StretchExecutor, WorkError, assig
 from mindlang.limits import refuse_too_large, refuse_too_long
 from mindlang.lock.blobs import digest
 from mindlang.number_format import duration, finite, short_score, speed
-from mindlang.training.broken_promises import broken_promises
-from mindlang.training.held_influence import held_influence
 from mindlang.training.lock_update import Kept, keep
+from mindlang.training.remarks import remarks
 from mindlang.training.retention import retention_table
 from mindlang.training.standstill import idle_note, idle_ticks
 from mindlang.training.subject import Subject
@@ -78,37 +77,27 @@ def workers_of(
     """
     lesson, policy = run.manifest.lesson, Policy(subject.graph, run.weights)
     cast = lesson.task, lesson.master, subject.folder, run.manifest.learners
+    # Attempts of a lesson that ends with the first that passes go one by one here: the others would be for nothing.
+    has_several, goes_on = lesson.learner.attempts > 1, rollout.workers > 1 and not lesson.needs
+    scored = scorer_on(where, rollout, partial(assignment_of, policy, *cast), workers, say)
     try:
-        with scorer_on(where, rollout, partial(assignment_of, policy, *cast), workers, say) as scorer:
+        with scored as scorer, ExitStack() as end:
             course = run.course(rollout.genome_length)
-            if (stretches := _stretches(course, rollout, scorer if where else rollout, clock)) is None:
+            stretches: AttemptExecutor
+            if has_several and where and isinstance(scorer, JobScorer):
+                stretches = StretchExecutor(course, scorer.jobs, rollout)
+            elif has_several and goes_on and not where:
+                stretches = threads = StretchThreads(course, rollout.workers, rollout.on, clock)
+                end.callback(threads.close)
+            else:
                 yield scorer, None
                 return
             kept = KeptSegments(run.folder, run.manifest.identity, course)
-            try:
-                yield rollout, RememberingExecutor(stretches, kept, clock)
-            finally:
-                if isinstance(stretches, StretchThreads):
-                    stretches.close()
-                kept.save()
+            end.callback(kept.save)
+            yield rollout, RememberingExecutor(stretches, kept, clock)
     except WorkError as error:
         resume = f"what was saved is intact; to go on: {command_line('mindc', 'train', '--resume', run.folder)}"
         raise WorkError(str(error), "; ".join(filter(None, (error.hint, resume)))) from error
-
-
-def _stretches(
-    course: Course, rollout: Rollout, scorer: Scorer, clock: Clock
-) -> StretchExecutor | StretchThreads | None:
-    """The executor of attempts side by side: the workers of a scorer, else threads; None where they go one by one.
-
-    Attempts of a lesson that ends with the first that passes go one by one here: the others would be for nothing.
-    """
-    if course.lesson.learner.attempts == 1:
-        return None
-    if isinstance(scorer, JobScorer):
-        return StretchExecutor(course, scorer.jobs, rollout)
-    side_by_side = rollout.workers > 1 and not course.lesson.needs
-    return StretchThreads(course, rollout.workers, rollout.on, clock) if side_by_side else None
 
 
 def teach(run: RunFolder, subject: Subject, workers: int, watch: Watch, where: Where | None = None) -> Result | None:
@@ -146,8 +135,7 @@ def finish(
     """
     kept = keep(run, subject, state, scorer, force, workers)
     result = result_of(run, subject, state, kept)
-    looks = (held_influence, broken_promises) if kept.is_new else ()
-    more = [note for look in looks for note in look(run, subject, state.kept[0])]
+    more = remarks(run, subject, state.kept[0]) if kept.is_new else []
     result["notes"] = [*notes, *more, *result["notes"]]
     keep_result(run.folder, result)
     return result, kept

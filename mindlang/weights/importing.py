@@ -23,12 +23,12 @@ from mindrun.train.scoring import Purpose, Seeds, layouts, mark
 from numpy.typing import NDArray
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.lock import FILE_ORIGIN, LockError, Taught, read_lock, read_locks
+from mindlang.lock import FILE_ORIGIN, Taught, read_locks
 from mindlang.lock.blobs import digest, record
 from mindlang.lock.status import elsewhere_sentences, status, trained_weights
 from mindlang.lock.world_facts import Worlds
 from mindlang.training.lesson_choice import chosen_lessons
-from mindlang.training.lock_update import COMPARED_LAYOUTS, WeightsComparison, needed_figures
+from mindlang.training.lock_update import COMPARED_LAYOUTS, WeightsComparison, genome_there, needed_figures
 from mindlang.training.subject import Subject
 from mindlang.weights.network import SkillNetwork, genome_in, network_of, read_bytes
 from mindlang.whatif.request import recorded_readings
@@ -188,7 +188,6 @@ class Imported:
     notes: tuple[str, ...] = ()
 
     def data(self) -> dict[str, Any]:
-        """The file, the deviation and the scores as plain data for JSON."""
         trial, compared = self.trial, self.deviation
         return {
             "skill": trial.network.skill.name,
@@ -212,22 +211,13 @@ def import_weights(trial: Trial, recording: str | None, force: bool) -> Imported
     """
     rows = trial.recorded(recording) if recording else trial.readings()
     compared = engine_deviation(trial.network, trial.genome, rows)
-    old = _weights_there(trial)
+    old = genome_there(trial.subject, trial.lesson, (trial.network.skill.name,))
     if old is not None and np.array_equal(old, trial.genome):
         return Imported(trial, compared, *trial.score(None), True, True)
     score, scores = trial.score(old)
     if scores and scores.is_worse and not force:
         return Imported(trial, compared, score, scores, False)
     return Imported(trial, compared, score, scores, True, notes=_write(trial, score))
-
-
-def _weights_there(trial: Trial) -> Weights | None:
-    """The weights in the lock to which the new ones go; None where there are none that fit, or they are damaged."""
-    subject, name = trial.subject, trial.network.skill.name
-    try:
-        return trained_weights(subject.graph, read_lock(subject.keep_path(trial.lesson)), [name])[0].get(name)
-    except LockError:
-        return None
 
 
 def _write(trial: Trial, score: float) -> tuple[str, ...]:

@@ -55,17 +55,15 @@ class SkillNetwork:
 
     @property
     def inputs(self) -> int:
-        """How many readings it takes."""
         return len(self.skill.inputs)
 
     @property
     def outputs(self) -> int:
-        """How many values it sends."""
         return self.skill.outputs
 
     @property
     def state(self) -> int:
-        """How many values it remembers."""
+        """The number of values that it remembers."""
         return self.skill.function.state_length(self.inputs, self.outputs)
 
 
@@ -149,7 +147,7 @@ def trained_network(subject: Subject, skill: str) -> tuple[SkillNetwork, Weights
 
 
 def save_genome(path: Path, network: SkillNetwork, genome: Weights) -> None:
-    """Write a genome as the matrices of its network; WeightsError where that fails."""
+    """WeightsError where that fails."""
     with system_errors_as(WeightsError, f"{path} cannot be written"):
         write(path, to_bytes(network, genome))
 

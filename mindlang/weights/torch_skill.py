@@ -33,7 +33,6 @@ class OrderedProduct(Function):
 
     @staticmethod
     def forward(x: Tensor, weight: Tensor) -> Tensor:
-        """The sums."""
         total = x[..., :1] * weight[:, 0]
         for j in range(1, weight.shape[1]):
             total += x[..., j : j + 1] * weight[:, j]
@@ -41,12 +40,10 @@ class OrderedProduct(Function):
 
     @staticmethod
     def setup_context(ctx: Any, inputs: tuple[Tensor, Tensor], output: Tensor) -> None:
-        """Keep what the derivatives need."""
         ctx.save_for_backward(*inputs)
 
     @staticmethod
     def backward(ctx: Any, grad: Tensor) -> tuple[Tensor, Tensor]:
-        """The derivatives of the values, and of the weights."""
         x, weight = ctx.saved_tensors
         return grad @ weight, grad.reshape(-1, weight.shape[0]).T @ x.reshape(-1, weight.shape[1])
 
@@ -65,12 +62,10 @@ class RationalSigmoid(Function):
 
     @staticmethod
     def setup_context(ctx: Any, inputs: tuple[Tensor], output: Tensor) -> None:
-        """Keep the values."""
         ctx.save_for_backward(output)
 
     @staticmethod
     def backward(ctx: Any, grad: Tensor) -> Tensor:
-        """y·(1 − y)."""
         (y,) = ctx.saved_tensors
         return grad * y * (1 - y)
 
@@ -99,7 +94,6 @@ class ReturningClamp(Function):
 
     @staticmethod
     def setup_context(ctx: Any, inputs: tuple[Tensor], output: Tensor) -> None:
-        """Keep the values before the clamp."""
         ctx.save_for_backward(*inputs)
 
     @staticmethod
@@ -162,7 +156,6 @@ class NetworkModule(nn.Module):
         return self.layers[0].weight.new_zeros(*batch, self.network.state)
 
     def take(self, genome: Weights) -> None:
-        """Set the weights to those of a genome."""
         with torch.no_grad():
             for layer, matrix in zip(self.layers, matrices(genome, self.network.shapes), strict=True):
                 layer.weight.copy_(torch.from_numpy(np.array(matrix)))
@@ -173,7 +166,6 @@ class NetworkModule(nn.Module):
         return np.concatenate(flat)
 
     def extra_repr(self) -> str:
-        """Whose function it is."""
         return f"{self.network.skill.name} is {self.network.signature.function}"
 
 

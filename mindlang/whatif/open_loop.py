@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.run.recording import running_bundle
-from mindlang.whatif.comparison import Columns, TickDifference, first_differences, mind_columns
+from mindlang.whatif.comparison import TickDifference, first_differences, mind_columns
 from mindlang.whatif.request import Request, changes_of
 
 OPEN_LOOP = "open loop: the readings are those of the recording, whatever other commands would have led to"
@@ -55,7 +55,6 @@ def compare_recording(path: Path, bundle: Path, request: Request, other: Bundle 
     changes = changes_of(request, theirs.graph, master, bundle)
 
     def changed(number: int, row: Any) -> tuple[Any, ...]:
-        """The readings, influence and commands of the changed mind for what was measured."""
         if row["tick"] == 0:  # begun anew
             engine.reset()
         given = np.append(row["readings"], np.float32(np.nan))[places]
@@ -70,20 +69,18 @@ def compare_recording(path: Path, bundle: Path, request: Request, other: Bundle 
     ]
     if len(ticks) < request.tick:
         raise ChangeError(f"{path} has {in_words(len(ticks))}: there is no tick {request.tick:,}", "say an earlier one")
-    was, now = (
+    begin = request.tick - 1  # another mind has read along before, and sent nothing
+    whole = (
         mind_columns(graph, *map(np.array, zip(*(each[i] for each in ticks), strict=True)))
         for i, graph in enumerate((mind.graph, theirs.graph))
     )
-    return _compared(about.master, was, now, request.tick)
-
-
-def _compared(master: str, was: dict[str, Columns], now: dict[str, Columns], tick: int) -> OpenLoop:
-    """The differences from a tick on; another mind has read along before, and sent nothing."""
-    begin, ticks = tick - 1, len(next(iter(was["command"].values())))
-    found = first_differences(_from(was, begin), _from(now, begin))
-    both = [name for name in was["command"] if name in now["command"]]
-    sent = {name: _sent(was["command"][name], now["command"][name], begin) for name in both}
-    return OpenLoop(master, ticks, [replace(each, tick=each.tick + begin) for each in found], sent)
+    was, now = (
+        {kind: {name: rows[begin:] for name, rows in of.items()} for kind, of in each.items()} for each in whole
+    )
+    differ = [replace(each, tick=each.tick + begin) for each in first_differences(was, now)]
+    both = was["command"].keys() & now["command"].keys()
+    sent = {name: _sent(rows, now["command"][name], begin) for name, rows in was["command"].items() if name in both}
+    return OpenLoop(about.master, len(ticks), differ, sent)
 
 
 def _places(about: About, graph: Graph, other: Graph, master: str, file: str) -> NDArray[np.intp]:
@@ -102,12 +99,8 @@ def _places(about: About, graph: Graph, other: Graph, master: str, file: str) ->
     return places
 
 
-def _from(columns: dict[str, Columns], begin: int) -> dict[str, Columns]:
-    return {kind: {name: rows[begin:] for name, rows in of.items()} for kind, of in columns.items()}
-
-
 def _sent(was: NDArray[np.float32], now: NDArray[np.float32], begin: int) -> dict[str, Any]:
-    apart = np.abs(now[begin:].astype(np.float64) - was[begin:])
+    apart = np.abs(now.astype(np.float64) - was)
     ticks = int(np.count_nonzero(apart))
     most_tick = begin + 1 + int(apart.argmax()) if ticks else None
     return {"ticks": ticks, "mean": float(apart.mean()), "most": float(apart.max()), "most_tick": most_tick}

@@ -113,5 +113,4 @@ def _asked(request: Request) -> dict[str, Any]:
 
 
 def _table(rows: Sequence[Sequence[str]]) -> Text:
-    """Names dim and to the left, numbers to the right."""
     return aligned([(Text(name, "dim"), *values) for name, *values in rows], left=(0,))

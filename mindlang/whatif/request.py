@@ -38,7 +38,6 @@ class Request:
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """Each change as it is said."""
         return (*self._lasting, *self.settings)
 
     @property

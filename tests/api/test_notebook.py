@@ -43,7 +43,7 @@ def test_pandas_takes_it(rules: Path) -> None:
 @pytest.mark.parametrize("mean", [False, True])
 def test_a_training_as_a_figure(tmp_path: Path, mean: bool) -> None:
     run = create(tmp_path / "runs", manifest(lesson(3)), {}, {})
-    train(run, Sphere(), unwatched(1e9))
+    train(run, Sphere(), unwatched())
     for where in (run.folder, str(tmp_path / "runs")):
         figure = mindlang.plot_training(where, mean=mean)
         assert isinstance(figure, Figure)

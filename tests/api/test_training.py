@@ -106,8 +106,10 @@ def test_without_a_name_what_is_due_is_taught(collect: Path) -> None:
     assert mind.train(runs=collect / "runs") == []
     lock = collect / "collect.lock"
     lock.write_text("".join(line for line in lock.read_text().splitlines(True) if not line.startswith("GoToDropZone ")))
-    results = mind.train(options=OPTIONS, runs=collect / "runs")
-    assert [result["skill"] for result in results][:1] == ["GoToDropZone"]
+    seen: list[Record] = []
+    is_first_over = lambda: len(seen) == OPTIONS.generations  # noqa: E731
+    results = mind.train(options=OPTIONS, runs=collect / "runs", on_generation=seen.append, cancelled=is_first_over)
+    assert [result["skill"] for result in results] == ["GoToDropZone"]
 
 
 @pytest.mark.parametrize("attempts", [1, 3])

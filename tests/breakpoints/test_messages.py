@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.breakpoints.breakpoint import Fault, Happens, Holds, Reaches, Stopped
+from mindlang.breakpoints.breakpoint import Happens, Holds, Reaches, RobotEvent
 from mindlang.breakpoints.resolve import BreakpointFile, breakpoints_of, load_breakpoints
 from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.diagnostic import Findings
@@ -95,9 +95,9 @@ def test_of_a_recording_there_are_the_events_of_the_robot() -> None:
     found = read("stop on stopped\nstop on 3 fault\nstop on fault of eyes", has_task=False)
     assert found.diagnostics == ()
     assert [each.cause for each in found.breakpoints] == [
-        Happens(Stopped(), 0),
-        Happens(Fault(), 3),
-        Happens(Fault("eyes"), 0),
+        Happens(RobotEvent("stopped"), 0),
+        Happens(RobotEvent("fault"), 3),
+        Happens(RobotEvent("fault", "eyes"), 0),
     ]
 
 

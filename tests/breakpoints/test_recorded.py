@@ -15,7 +15,7 @@ from mindrun.graph.recording_header import About
 from mindrun.graph.weights import reachable
 from mindrun.robot.recording import read_growing
 
-from mindlang.breakpoints.breakpoint import Breakpoint, Fault, Happens, Holds, Reaches, Stopped, Transmission
+from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, RobotEvent, Transmission
 from mindlang.breakpoints.resolve import breakpoints_of
 from mindlang.breakpoints.watch import RecordingWatcher, recording_subject, watcher
 from mindlang.compiler.source import Source
@@ -82,7 +82,11 @@ def test_what_happens_to_a_robot_is_found_where_it_begins(facts: list[tuple[int,
     begun = np.array(
         [[now > 0 and then == 0 for then, now in zip(*both, strict=True)] for both in pairwise([(0,) * 4, *facts])]
     )
-    happened = {Stopped(): begun[:, 0], Fault(): begun[:, 1:].sum(axis=1), Fault("holding"): begun[:, 3]}
+    happened = {
+        RobotEvent("stopped"): begun[:, 0],
+        RobotEvent("fault"): begun[:, 1:].sum(axis=1),
+        RobotEvent("fault", "holding"): begun[:, 3],
+    }
     asked = [
         Breakpoint(line, "", Happens(event, times)) for line, (event, times) in enumerate(product(happened, (0, 2)))
     ]

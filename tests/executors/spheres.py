@@ -11,7 +11,7 @@ from mindlang.executors.jobs import Assignment, Done, answer
 from tests.train.climbing import Results, Sphere
 
 ASSIGNMENT = Assignment(b"no bundle", "Climb", "Climb")
-SLOW_SECONDS = 0.02
+SLOW_SECONDS = 0.005
 _calls = count(1)
 
 

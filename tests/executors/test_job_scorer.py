@@ -1,6 +1,7 @@
 """Genomes × seeds as jobs: however they are cut, whoever does them in whichever order, the arrays are one machine's."""
 
 from dataclasses import fields
+from itertools import cycle
 
 import numpy as np
 from hypothesis import given
@@ -8,7 +9,7 @@ from hypothesis import strategies as st
 from mindrun.graph.run_scores import Scores
 
 from mindlang.executors import jobs
-from mindlang.executors.jobs import Blocks, JobScorer, runs_in_a_job
+from mindlang.executors.jobs import JobScorer, blocks, runs_in_a_job
 from tests.executors.counting import LENGTH, Counting, Shuffling
 
 SHAPES = st.tuples(st.integers(0, 12), st.integers(0, 40))
@@ -44,14 +45,10 @@ def test_any_order_and_any_losses_come_to_the_same_arrays(
 
 @given(SHAPES, st.lists(st.integers(1, 100), min_size=1))
 def test_blocks_are_every_run_once(shape: tuple[int, int], sizes: list[int]) -> None:
-    left, times, turn = Blocks(*shape), np.zeros(shape, int), 0
-    while left.left:
-        before = left.left
-        block = left.next(sizes[turn % len(sizes)])
-        turn += 1
+    asked, times = cycle(sizes), np.zeros(shape, int)
+    for block in blocks(*shape, lambda: next(asked)):
         times[block.genomes, block.seeds] += 1
-        assert block.runs == before - left.left
-        assert block.runs <= max(sizes)
+        assert block.runs == times[block.genomes, block.seeds].size <= max(sizes)
     assert (times == 1).all()
 
 

@@ -4,12 +4,14 @@ import json
 import signal
 import subprocess
 import sys
+from io import StringIO
 from pathlib import Path
 from time import sleep
 
 import pytest
 
-from tests.train.test_train_command import LONG, MIND, train_apart
+from tests.calling import Call
+from tests.train.test_train_command import LONG, MIND
 
 TAUGHT = ("drive.mind", "Go", "--seed", "3", "--generations", "6", "--attempts", "3", "--from-scratch", "--json")
 
@@ -17,53 +19,54 @@ TIMES = "seconds", "ticks_per_second", "cpu_seconds", "ticks_per_cpu_second", "w
 RUN = "runs/Go-on-Reach/*"
 
 
-def weights(folder: Path, *words: str) -> dict[str, str]:
+def weights(mindc: Call, folder: Path, *words: str) -> dict[str, str]:
     folder.mkdir()
     (folder / "drive.mind").write_text(MIND)
-    done = train_apart(folder, *TAUGHT, *words)
-    assert done.returncode == 0, done.stderr
-    found: dict[str, str] = json.loads(done.stdout)["weights"]
+    done = mindc("train", folder / "drive.mind", *TAUGHT[1:], "--runs", folder / "runs", *words)
+    assert done.code == 0, done.err
+    found: dict[str, str] = json.loads(done.out)["weights"]
     return found
 
 
-def test_the_weights_are_the_same_on_threads_and_on_workers(tmp_path: Path) -> None:
-    expected = weights(tmp_path / "one after the other", "--workers", "1")
-    assert weights(tmp_path / "threads", "--on", "threads", "--workers", "2") == expected
-    assert weights(tmp_path / "processes", "--on", "processes:2") == expected
+def test_the_weights_are_the_same_on_threads_and_on_workers(mindc: Call, tmp_path: Path) -> None:
+    expected = weights(mindc, tmp_path / "one after the other", "--workers", "1")
+    assert weights(mindc, tmp_path / "threads", "--on", "threads", "--workers", "2") == expected
+    assert weights(mindc, tmp_path / "processes", "--on", "processes:2") == expected
 
 
-def test_of_a_single_attempt_the_runs_are_the_jobs(tmp_path: Path) -> None:
-    expected = weights(tmp_path / "threads", "--attempts", "1")
-    assert weights(tmp_path / "processes", "--attempts", "1", "--on", "processes:2") == expected
+def test_of_a_single_attempt_the_runs_are_the_jobs(mindc: Call, tmp_path: Path) -> None:
+    expected = weights(mindc, tmp_path / "threads", "--attempts", "1")
+    assert weights(mindc, tmp_path / "processes", "--attempts", "1", "--on", "processes:2") == expected
 
 
-def test_many_runs_are_the_same_wherever_they_are_made(tmp_path: Path) -> None:
-    (tmp_path / "drive.mind").write_text(MIND)
-    assert train_apart(tmp_path, "drive.mind", "Go", "Drive", "--seed", "3", "-q").returncode == 0
-    for words in (("--no-interruption", "--master", "Drive"), ("drive.mind", "--master", "Go", "--master", "Drive")):
+def test_many_runs_are_the_same_wherever_they_are_made(mindc: Call, drive: Path) -> None:
+    assert mindc("train", drive, "Go", "Drive", "--seed", "3", "-q").code == 0
+    for words in (("--no-interruption", "--master", "Drive"), (drive, "--master", "Go", "--master", "Drive")):
         found = []
-        for on in ((), ("--on", "processes:2")):
-            said = "bench", "drive.mind", *words, "--task", "Reach", "--runs", "700", "--csv", "runs.csv", "--json"
-            done = called(tmp_path, *said, *on)
-            assert done.returncode == 0, done.stderr
-            found.append((timeless(json.loads(done.stdout)), (tmp_path / "runs.csv").read_bytes()))
+        for on in ((), ("--on", "processes:1")):
+            done = mindc("bench", drive, *words, "--task", "Reach", "--runs", 90, "--csv", "runs.csv", "--json", *on)
+            assert done.code == 0, done.err
+            found.append((timeless(json.loads(done.out)), Path("runs.csv").read_bytes()))
         assert found[0] == found[1]
 
 
-def test_a_procedure_that_prints_and_reads_takes_no_answer_and_no_job(tmp_path: Path) -> None:
+def test_a_procedure_that_prints_and_reads_takes_no_answer_and_no_job(
+    mindc: Call, drive: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     rule = "skill Go is procedure from talk.go\n  reads bearing\n  drives left_wheel\n  drives right_wheel\n"
     text = MIND[: MIND.index("skill Go")] + rule + MIND[MIND.index("skill Drive") : MIND.index("curriculum School")]
     text = text[: text.index("skill Drive")] + text[text.index("task Reach") :]
-    (tmp_path / "drive.mind").write_text(text.replace("master Drive", "master Go"))
-    (tmp_path / "talk.py").write_text(
+    drive.write_text(text.replace("master Drive", "master Go"))
+    monkeypatch.setattr(sys, "stdin", StringIO())
+    drive.with_name("talk.py").write_text(
         "import os, sys\n\n\ndef go(bearing):\n    print('mindfrm1', bearing)\n    os.write(1, b'mindfrm1')\n"
         "    assert sys.stdin.read() == ''\n    return bearing, 0.7\n"
     )
     found = []
     for on in ((), ("--on", "processes:2")):
-        done = called(tmp_path, "bench", "drive.mind", "--task", "Reach", "--runs", "9", "--csv", "runs.csv", *on)
-        assert done.returncode == 0, done.stderr
-        found.append((tmp_path / "runs.csv").read_bytes())
+        done = mindc("bench", drive, "--task", "Reach", "--runs", "9", "--csv", "runs.csv", *on)
+        assert done.code == 0, done.err
+        found.append(Path("runs.csv").read_bytes())
     assert found[0] == found[1]
 
 
@@ -72,12 +75,6 @@ def timeless(value: object) -> object:
     if isinstance(value, dict):
         return {k: timeless(each) for k, each in value.items() if k not in TIMES}
     return [timeless(each) for each in value] if isinstance(value, list) else value
-
-
-def called(folder: Path, *words: str) -> "subprocess.CompletedProcess[str]":
-    command = [sys.executable, "-c", "from mindlang.cli import main; main()", *words]
-    nothing = subprocess.DEVNULL
-    return subprocess.run(command, cwd=folder, stdin=nothing, capture_output=True, text=True, check=False)
 
 
 @pytest.mark.parametrize(
@@ -95,66 +92,39 @@ def called(folder: Path, *words: str) -> "subprocess.CompletedProcess[str]":
         ("command:srun mindrun work", "any more; Dask begins workers now: --on ssh:a,b or --on slurm:8"),
     ],
 )
-def test_what_says_no_place_is_refused(tmp_path: Path, where: str, words: str) -> None:
-    (tmp_path / "drive.mind").write_text(MIND)
-    done = train_apart(tmp_path, *TAUGHT, "--on", where)
-    assert done.returncode == 2
-    assert words in " ".join(done.stderr.split())
-    assert not (tmp_path / "runs").exists()
-
-
-@pytest.fixture(scope="module")
-def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
-    """The weights of a run that nobody has stopped."""
-    folder = tmp_path_factory.mktemp("undisturbed")
-    (folder / "drive.mind").write_text(MIND)
-    said = train_apart(folder, *LONG, "--attempts", "3", "--workers", "1", "--runs", "undisturbed").stdout
-    found: dict[str, str] = json.loads(said)["weights"]
-    return found
+def test_what_says_no_place_is_refused(mindc: Call, drive: Path, where: str, words: str) -> None:
+    done = mindc("train", *TAUGHT, "--on", where)
+    assert done.code == 2
+    assert words in " ".join(done.err.split())
+    assert not Path("runs").exists()
 
 
 @pytest.mark.parametrize("where", [pytest.param(("--workers", "2"), marks=pytest.mark.slow), ("--on", "processes:2")])
-def test_stopped_with_ctrl_c_it_goes_on_to_the_same_weights_there_or_here(
-    tmp_path: Path, undisturbed: dict[str, str], where: tuple[str, ...]
+@pytest.mark.parametrize("how", [signal.SIGINT, pytest.param(signal.SIGKILL, marks=pytest.mark.slow)])
+def test_stopped_or_killed_it_goes_on_to_the_same_weights_there_or_here(
+    mindc: Call, drive: Path, where: tuple[str, ...], how: signal.Signals
 ) -> None:
-    (tmp_path / "drive.mind").write_text(MIND)
     words = (*LONG, "--attempts", "3")
     command = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", *words, *where]
-    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        while process.poll() is None and not any(log.stat().st_size for log in tmp_path.glob(f"{RUN}/progress.jsonl")):
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        while process.poll() is None and not any(log.stat().st_size for log in Path().glob(f"{RUN}/progress.jsonl")):
             sleep(0.005)
-        process.send_signal(signal.SIGINT)
+        process.send_signal(how)
         _, talk = process.communicate()
-    assert process.returncode == 130, talk
-    assert "what workers are at is done again then; Ctrl-C again stops at once" in talk
-    run = str(next(tmp_path.glob(RUN)))
-    there = train_apart(tmp_path, *words, *where)
-    assert json.loads(there.stdout) == json.loads(there.stdout) | {
-        "run": run.removeprefix(f"{tmp_path}/"),
-        "weights": undisturbed,
-    }
-
-
-@pytest.mark.parametrize("where", [pytest.param(("--workers", "2"), marks=pytest.mark.slow), ("--on", "processes:2")])
-def test_killed_it_goes_on_to_the_same_weights(
-    tmp_path: Path, undisturbed: dict[str, str], where: tuple[str, ...]
-) -> None:
-    (tmp_path / "drive.mind").write_text(MIND)
-    words = (*LONG, "--attempts", "3")
-    command = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", *words, *where]
-    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
-        while process.poll() is None and not any(log.stat().st_size for log in tmp_path.glob(f"{RUN}/progress.jsonl")):
-            sleep(0.005)
-        process.kill()
-    run = str(next(tmp_path.glob(RUN)))
-    assert json.loads(train_apart(tmp_path, "--resume", run, "--json").stdout)["weights"] == undisturbed
+    assert process.returncode == {signal.SIGINT: 130}.get(how, -how), talk
+    if how == signal.SIGINT:
+        assert "what workers are at is done again then; Ctrl-C again stops at once" in talk
+    [run] = Path().glob(RUN)
+    there = json.loads(mindc("train", *words, *where).out)
+    undisturbed = json.loads(mindc("train", *words, "--workers", "1", "--runs", "undisturbed").out)
+    assert (there["run"], there["weights"]) == (str(run), undisturbed["weights"])
 
 
 @pytest.mark.slow
-def test_event_files_have_every_generation_once_wherever_they_were_made(tmp_path: Path) -> None:
+def test_event_files_have_every_generation_once_wherever_they_were_made(mindc: Call, tmp_path: Path) -> None:
     pytest.importorskip("tensorboardX", reason="event files are written with tensorboardX")
-    weights(tmp_path / "here", "--tensorboard")
-    weights(tmp_path / "there", "--tensorboard", "--on", "processes:2")
+    weights(mindc, tmp_path / "here", "--tensorboard")
+    weights(mindc, tmp_path / "there", "--tensorboard", "--on", "processes:2")
     here, there = (
         {path.parent.name: scores(path) for path in sorted((tmp_path / folder).glob(f"{RUN}/tensorboard/*/*"))}
         for folder in ("here", "there")

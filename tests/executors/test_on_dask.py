@@ -13,7 +13,8 @@ from time import sleep
 import pytest
 
 from mindlang.executors.dask import TLS, sbatch
-from tests.executors.test_on import RUN, called
+from tests.calling import Call
+from tests.executors.test_on import RUN
 from tests.train.test_train_command import LONG, MIND, train_apart
 
 pytest.importorskip("distributed", reason="distributed is not installed: pip install 'mindlang[cluster]'")
@@ -93,15 +94,15 @@ def test_the_weights_are_those_of_threads(project: Path, cluster: str, pem: str)
         assert (refused.returncode, "none was said" in refused.stderr) == (1, True)
 
 
-def test_the_runs_are_those_of_threads(project: Path, cluster: str) -> None:
-    assert train_apart(project, "drive.mind", "Go", "Drive", "--seed", "3", "-q").returncode == 0
+def test_the_runs_are_those_of_threads(mindc: Call, drive: Path, cluster: str) -> None:
+    assert mindc("train", drive, "Go", "Drive", "--seed", "3", "-q").code == 0
     rows = []
     for words in ((), ("--on", f"dask:{cluster}")):
-        done = called(project, "bench", "drive.mind", "--task", "Reach", "--runs", "700", "--csv", "runs.csv", *words)
-        assert done.returncode == 0, done.stderr
-        rows.append((project / "runs.csv").read_bytes())
+        done = mindc("bench", drive, "--task", "Reach", "--runs", 90, "--csv", "runs.csv", *words)
+        assert done.code == 0, done.err
+        rows.append(Path("runs.csv").read_bytes())
     assert rows[0] == rows[1]
-    assert f"by dask:{cluster}, in" in " ".join(done.stdout.split())
+    assert f"by dask:{cluster}, in" in " ".join(done.out.split())
 
 
 @pytest.mark.slow
@@ -150,13 +151,13 @@ def test_the_first_ctrl_c_stops_where_no_worker_has_begun(project: Path) -> None
         ("dask:tls://127.0.0.1:9,none.pem", 1, "none.pem is no certificate with its key"),
     ],
 )
-def test_where_there_is_no_way_to_a_cluster_it_is_said(project: Path, where: str, code: int, words: str) -> None:
-    done = train_apart(project, *TAUGHT, "--on", where)
-    assert (done.returncode, words in done.stderr) == (code, True), done.stderr
-    assert "Traceback" not in done.stderr
+def test_where_there_is_no_way_to_a_cluster_it_is_said(
+    mindc: Call, drive: Path, where: str, code: int, words: str
+) -> None:
+    done = mindc("train", *TAUGHT, "--on", where)
+    assert (done.code, words in done.err) == (code, True), done.err
 
 
-def test_the_help_has_the_two_lines_for_slurm(project: Path) -> None:
-    done = train_apart(project, "--help")
-    said = " ".join(done.stdout.replace("\\\n", " ").split())
+def test_the_help_has_the_two_lines_for_slurm(mindc: Call) -> None:
+    said = " ".join(mindc("train", "--help").out.replace("\\\n", " ").split())
     assert all(line in said for line in (TLS, *sbatch("scheduler.json")))

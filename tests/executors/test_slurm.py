@@ -12,8 +12,8 @@ if find_spec("dask_jobqueue") is None:  # whose import takes Ctrl-C away from th
 pytest.importorskip("cryptography", reason="cryptography is not installed: pip install 'mindlang[slurm]'")
 
 from mindlang.executors import jobs, slurm
+from tests.calling import Call
 from tests.executors.test_on import TAUGHT, weights
-from tests.train.test_train_command import MIND, train_apart
 
 ROOT = Path(__file__).parents[2]
 SBATCH = f"""#!{sys.executable}
@@ -48,10 +48,10 @@ def cluster(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.mark.slow
-def test_it_teaches_the_weights_of_threads_and_cancels_its_jobs(tmp_path: Path, cluster: Path) -> None:
-    expected = weights(tmp_path / "threads")
+def test_it_teaches_the_weights_of_threads_and_cancels_its_jobs(mindc: Call, tmp_path: Path, cluster: Path) -> None:
+    expected = weights(mindc, tmp_path / "threads")
     where = "slurm:2,cores=1,memory=2GB,queue=short,walltime=00:30:00"
-    assert weights(tmp_path / "there", "--on", where) == expected
+    assert weights(mindc, tmp_path / "there", "--on", where) == expected
     assert "#SBATCH -p short" in (cluster / "job.sh").read_text()
     assert "--protocol tls://" in (cluster / "job.sh").read_text()
     jobs = (cluster / "jobs.log").read_text().split()
@@ -59,10 +59,9 @@ def test_it_teaches_the_weights_of_threads_and_cancels_its_jobs(tmp_path: Path, 
     assert {*(cluster / "scancel.log").read_text().split()} == {*jobs}, "all that are begun are killed"
 
 
-def test_what_a_job_is_has_to_be_said(tmp_path: Path, cluster: Path) -> None:
-    (tmp_path / "drive.mind").write_text(MIND)
-    done = train_apart(tmp_path, *TAUGHT, "--on", "slurm:2")
-    assert (done.returncode, "cores and memory" in done.stderr, "memory=8GB" in done.stderr) == (1, True, True)
+def test_what_a_job_is_has_to_be_said(mindc: Call, drive: Path, cluster: Path) -> None:
+    done = mindc("train", *TAUGHT, "--on", "slurm:2")
+    assert (done.code, "cores and memory" in done.err, "memory=8GB" in done.err) == (1, True, True)
 
 
 def test_without_the_package_its_line_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

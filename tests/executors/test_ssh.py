@@ -14,8 +14,8 @@ pytest.importorskip("asyncssh", reason="asyncssh is not installed: pip install '
 import asyncssh
 
 from mindlang.executors.ssh import Machine, arguments, machines
+from tests.calling import Call
 from tests.executors.test_on import TAUGHT, weights
-from tests.train.test_train_command import MIND, train_apart
 
 ROOT = Path(__file__).parents[2]
 SERVER = """
@@ -73,17 +73,16 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 @pytest.mark.slow
-def test_it_teaches_the_weights_of_threads_and_leaves_nothing_there(tmp_path: Path, home: Path) -> None:
-    expected = weights(tmp_path / "threads")
-    assert weights(tmp_path / "there", "--on", f"ssh:a:{sys.executable},b,gone") == expected
+def test_it_teaches_the_weights_of_threads_and_leaves_nothing_there(mindc: Call, tmp_path: Path, home: Path) -> None:
+    expected = weights(mindc, tmp_path / "threads")
+    assert weights(mindc, tmp_path / "there", "--on", f"ssh:a:{sys.executable},b,gone") == expected
     asked = (home / "asked.log").read_text()
     assert asked.count("distributed.cli.dask_spec") == 3  # a scheduler and two workers
     assert "PRIVATE KEY" not in asked
     assert [*home.glob(".mindc*")] == []
 
 
-def test_where_no_machine_takes_part_it_is_one_sentence(tmp_path: Path, home: Path) -> None:
-    (tmp_path / "drive.mind").write_text(MIND)
+def test_where_no_machine_takes_part_it_is_one_sentence(mindc: Call, drive: Path, home: Path) -> None:
     (home / "python").write_text(f'#!/bin/sh\ntest "$1" = -c && exec {sys.executable} "$@"\n')
     (home / "python").chmod(0o755)
     for where, words in (
@@ -91,9 +90,9 @@ def test_where_no_machine_takes_part_it_is_one_sentence(tmp_path: Path, home: Pa
         ("ssh:a:/nowhere/python", "no machine takes part; the last, a: /bin/sh: 1: /nowhere/python: not found"),
         (f"ssh:a:{home / 'python'}", "no cluster begins at a: "),
     ):
-        done = train_apart(tmp_path, *TAUGHT, "--on", where)
-        said = " ".join(done.stderr.split())
-        assert (done.returncode, words in said, "--resume" in said) == (1, True, True), done.stderr
+        done = mindc("train", *TAUGHT, "--on", where)
+        said = " ".join(done.err.split())
+        assert (done.code, words in said, "--resume" in said) == (1, True, True), done.err
         assert [*home.glob(".mindc*")] == [], "nor does it leave its certificate there"
 
 

@@ -1,8 +1,7 @@
 """`mindc build`, from the source and its lock to a bundle that runs."""
 
 import json
-import subprocess
-import sys
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +15,7 @@ from mindlang.lint.examples import WORLD
 from mindlang.lock import Taught, read_lock
 from mindlang.lock.blobs import FOLDER, record
 from mindlang.lock.signature import arrange
+from tests.calling import Call
 
 SOURCE = """tick 1/60 s
 master Top
@@ -61,17 +61,17 @@ def source(tmp_path: Path) -> Path:
     return path
 
 
-def build(*words: object) -> subprocess.CompletedProcess[str]:
-    """Run mindc build."""
-    command = [sys.executable, "-c", "from mindlang.cli import main; main()", "build", *map(str, words)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
+@pytest.fixture
+def build(mindc: Call) -> Call:
+    """Mindc build in this process."""
+    return partial(mindc, "build")
 
 
-def test_a_bundle_is_built_and_runs(source: Path) -> None:
+def test_a_bundle_is_built_and_runs(build: Call, source: Path) -> None:
     out = source.with_suffix(".bundle")
     said = build(source, "-o", out, "--json")
-    assert said.returncode == 0, said.stderr
-    assert json.loads(said.stdout)["skills"] == ["Go", "Top"]
+    assert said.code == 0, said.err
+    assert json.loads(said.out)["skills"] == ["Go", "Top"]
     bundle = read_bundle(out)
     assert Engine(bundle.policy, bundle.procedures).tick([1.0, 0.0])[1] == 0.5
     first = out.read_bytes()
@@ -79,31 +79,31 @@ def test_a_bundle_is_built_and_runs(source: Path) -> None:
     assert out.read_bytes() == first
 
 
-def test_moving_lines_changes_no_byte_of_the_weights(source: Path) -> None:
+def test_moving_lines_changes_no_byte_of_the_weights(build: Call, source: Path) -> None:
     moved = SOURCE.replace("  reads battery\n  reads pulse\n", "  reads pulse  # first\n  reads battery\n")
     build(source, "-o", source.with_suffix(".bundle"))
     source.write_text(moved)
-    assert build(source, "-o", source.with_name("moved.bundle")).returncode == 0
+    assert build(source, "-o", source.with_name("moved.bundle")).code == 0
     first, second = read_bundle(source.with_suffix(".bundle")), read_bundle(source.with_name("moved.bundle"))
     assert first.graph == second.graph
     assert first.policy.weights["Go"].tobytes() == second.policy.weights["Go"].tobytes()
 
 
-def test_stale_weights_are_refused_with_the_difference(source: Path) -> None:
+def test_stale_weights_are_refused_with_the_difference(build: Call, source: Path) -> None:
     source.write_text(SOURCE.replace("  reads pulse\n", ""))
     said = build(source, "-o", source.with_suffix(".bundle"))
-    assert said.returncode == 1
-    assert said.stderr.splitlines() == [
+    assert said.code == 1
+    assert said.err.splitlines() == [
         "the weights of Go are stale: reads pulse is gone",
         f"  mindc train {source} Go",
     ]
     assert not source.with_suffix(".bundle").exists()
 
 
-def test_only_what_the_master_reaches_is_needed(source: Path) -> None:
+def test_only_what_the_master_reaches_is_needed(build: Call, source: Path) -> None:
     source.write_text(SOURCE.replace("mlp hidden 1", "mlp hidden 3"))
-    assert build(source, "-o", source.with_suffix(".bundle")).returncode == 1
-    assert build(source, "-o", source.with_suffix(".bundle"), "--master", "Go").returncode == 0
+    assert build(source, "-o", source.with_suffix(".bundle")).code == 1
+    assert build(source, "-o", source.with_suffix(".bundle"), "--master", "Go").code == 0
     assert read_bundle(source.with_suffix(".bundle")).graph.master == "Go"
 
 
@@ -118,38 +118,38 @@ def _flip_weights(source: Path) -> None:
 
 
 @pytest.mark.parametrize("damage", [_cut_lock, _flip_weights])
-def test_what_is_damaged_is_unreadable_input(source: Path, damage) -> None:
+def test_what_is_damaged_is_unreadable_input(build: Call, source: Path, damage) -> None:
     damage(source)
     out = source.with_suffix(".bundle")
     out.write_text("old")
     said = build(source, "-o", out)
-    assert said.returncode == 2
-    assert len(said.stderr.splitlines()) == 1
+    assert said.code == 2
+    assert len(said.err.splitlines()) == 1
     assert out.read_text() == "old"
 
 
-def test_a_procedure_that_is_gone_is_told_where_it_stands(source: Path) -> None:
+def test_a_procedure_that_is_gone_is_told_where_it_stands(build: Call, source: Path) -> None:
     (source.parent / "claw.py").unlink()
     out = source.with_suffix(".bundle")
     out.write_text("old")
     said = build(source, "-o", out)
-    assert said.returncode == 1
-    assert "[faulty-procedure]" in said.stderr
-    assert "skill Grip is procedure from claw.grip" in said.stderr
+    assert said.code == 1
+    assert "[faulty-procedure]" in said.err
+    assert "skill Grip is procedure from claw.grip" in said.err
     assert out.read_text() == "old"
 
 
-def test_wrong_usage(source: Path) -> None:
+def test_wrong_usage(build: Call, source: Path) -> None:
     out = source.with_suffix(".bundle")
     said = build(source, "-o", out, "--master", "Goo")
-    assert (said.returncode, said.stderr) == (2, "There is no skill Goo.\n  Did you mean Go?\n")
-    assert build(source).returncode == 2
-    assert build(source.with_name("no.mind"), "-o", out).returncode == 2
+    assert (said.code, said.err) == (2, "There is no skill Goo.\n  Did you mean Go?\n")
+    assert build(source).code == 2
+    assert build(source.with_name("no.mind"), "-o", out).code == 2
     said = build(source, "-o", source.parent / "no" / "a.bundle")
-    assert (said.returncode, "Traceback" in said.stderr) == (1, False)
-    assert said.stderr.endswith(f"cannot be written: there is no folder {source.parent / 'no'}\n")
+    assert (said.code, "Traceback" in said.err) == (1, False)
+    assert said.err.endswith(f"cannot be written: there is no folder {source.parent / 'no'}\n")
 
 
-def test_building_runs_no_procedure(source: Path) -> None:
+def test_building_runs_no_procedure(build: Call, source: Path) -> None:
     (source.parent / "claw.py").write_text("def grip(battery):\n    return 0.5\n\nraise SystemExit('it ran')\n")
-    assert build(source, "-o", source.with_suffix(".bundle")).returncode == 0
+    assert build(source, "-o", source.with_suffix(".bundle")).code == 0

@@ -11,15 +11,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.graph.graph import Graph
-from mindrun.graph.weights import genes, learners
+from mindrun.graph.weights import genes, learners, owners, reachable
 from mindrun.kinds.registry import arguments, kinds, names
 from mindrun.numbers.quantity import EXPRESSION, Quantity, Reference, Span
 
 from mindlang.compiler.compile import compile_source, load
 from mindlang.compiler.source import Source
-from mindlang.lock import Lock, LockError, Taught, lock_path, lock_text, read_lock
-from mindlang.lock.blobs import record
+from mindlang.lock import Entry, Lock, LockError, Taught, lock_path, lock_text, read_lock
+from mindlang.lock.blobs import digest, record
 from mindlang.lock.report import rows, survival
+from mindlang.lock.signature import signature
 from mindlang.lock.status import Stale, Trained, last_lesson, status
 from mindlang.lock.training_world import TrainingWorld, world_of
 from mindlang.lock.world_changes import changes
@@ -208,21 +209,14 @@ def taught(graph: Graph, folder: Path | None = None) -> Lock:
     lock = {}
     for lesson in graph.lessons:
         for name in learners(graph, lesson):
-            skill = next(each for each in graph.skills if each.name == name)
-            path = (folder or Path("/nonexistent")) / "a.lock"
+            below = reachable(graph, name)
+            assert genes(below[0])
             made = Taught(lesson.task, lesson.master, lesson.with_subskills, 3, 8, 1, 1.0)
             world = Worlds(graph, folder).of(lesson)
-            entry = _entry(path, graph, name, made)
-            assert genes(skill)
-            lock[name] = replace(entry, worlds=(world,))
+            own, *others = ((skill.name, digest(np.zeros(genes(skill), np.float32))) for skill in below if genes(skill))
+            subskills = tuple(sorted((skill, weights) for skill, weights in others if skill in owners(below)))
+            lock[name] = Entry(name, signature(graph, below[0]), own[1], made, subskills, (world,))
     return lock
-
-
-def _entry(path: Path, graph: Graph, name: str, made: Taught) -> Any:
-    from mindlang.lock.blobs import _entry as entry
-
-    weights = {skill.name: np.zeros(genes(skill), np.float32) for skill in graph.skills if genes(skill)}
-    return entry(path, graph, name, weights, made)
 
 
 # The robots of which a mind has one only.
@@ -395,7 +389,12 @@ TEXTS = [
     ("each p in fear", "each p in eye", None),
     ("lasts 600", "lasts 601", "its task has changed: lasts 600 ticks, now 601"),
     ("  ends on exhaustion\n", "", "its task has changed: no longer ends on exhaustion"),
-    ("succeeds on 5", "succeeds on 4", None),
+    (
+        "succeeds on 5",
+        "succeeds on 4",
+        "its task has changed: no longer succeeds on 5 delivery of ball to bin; "
+        "its task has changed: succeeds on 4 delivery of ball to bin",
+    ),
     (
         "left_wheel 0 to 10%",
         "left_wheel 0 to 20%",

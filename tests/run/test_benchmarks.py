@@ -33,6 +33,7 @@ def test_the_plain_pymunk_loop_goes_where_the_lanes_go(seed: int, monkeypatch: p
     assert np.hypot(*(moment.body[:2] - run.begin[:2])) > 2
 
 
+@pytest.mark.slow
 def test_check_is_timed() -> None:
     command = [sys.executable, "-m", "benchmarks.check", "--rounds", "1", "--only", "check", "--json"]
     done = subprocess.run(command, cwd=BENCHMARKS.parent, capture_output=True, text=True, check=True)

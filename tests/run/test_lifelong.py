@@ -18,7 +18,7 @@ from benchmarks.lifelong.written import mind_text
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source
 
-TICKS, LAYOUTS, SEEDS = 100_000.0, 2, np.arange(4, dtype=np.uint64)
+TICKS, FEW_TICKS, LAYOUTS, SEEDS = 100_000.0, 1000.0, 2, np.arange(4, dtype=np.uint64)
 EIGHT, CROSS = ("eight", 1), ("cross", 1)
 
 
@@ -59,8 +59,8 @@ def test_a_seed_has_its_hundred_lessons() -> None:
 
 def test_what_a_masked_network_keeps_for_a_task_acts_in_it_after_another_lesson() -> None:
     agent = AGENTS["monolith, masked"](sequence(EIGHT))
-    known: Known = agent.learn({}, 0, 7, TICKS).known
-    before, after = agent.player(known, 0), agent.player(agent.learn(known, 1, 8, TICKS).known, 0)
+    known: Known = agent.learn({}, 0, 7, FEW_TICKS).known
+    before, after = agent.player(known, 0), agent.player(agent.learn(known, 1, 8, FEW_TICKS).known, 0)
     assert before
     assert after
     assert before[1].any()

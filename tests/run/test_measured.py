@@ -95,7 +95,7 @@ def test_every_number_is_that_of_a_mind_that_reads_all_or_there_is_none(graph: G
     assert np.array_equal(run.battery, twin.battery) or np.isnan(run.battery).all()
 
 
-@settings(max_examples=12, suppress_health_check=SLOW)
+@settings(max_examples=6, suppress_health_check=SLOW)
 @given(partly_read(), st.sampled_from(SCALES), st.integers(0, 2**32 - 1))
 def test_tables_recordings_and_pages_show_what_the_run_has(graph: Graph, scale: float, seed: int) -> None:
     """And a recording is computed again by the engine, which reads none of it."""

@@ -12,7 +12,8 @@ from mindrun.sim.trace import Ticks, joined, trace
 
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source
-from mindlang.run.promises import FEW_TICKS, promises_in
+from mindlang.run import promises
+from mindlang.run.promises import promises_in
 from mindlang.run.setup import RunSetup, set_up
 from tests.calling import Call
 
@@ -50,6 +51,7 @@ task Feed in arena size 60
   lasts 80 s
   rewards in_dock per tick
 """
+FEW_TICKS = 4000
 WATCHED = (
     MIND.replace("skill SeekFood", "sensor unsafe is broken SeekDock\nskill SeekFood")
     .replace("  reads hungry", "  reads hungry\n  reads unsafe")
@@ -129,19 +131,22 @@ def test_of_two_minds_a_bench_says_in_how_many_runs_each_breaks_a_promise(mindc:
 
 
 @pytest.mark.parametrize(("how", "key", "here"), [("--worlds", "worlds", "as taught"), ("--credit", "skills", "whole")])
-def test_where_a_promise_is_broken_in_most_runs_is_said(mindc: Call, dock: Path, how: str, key: str, here: str) -> None:
-    found, setup = bench(mindc, dock, "--runs", 14, how), prepared(MIND)
-    few = promises_in(setup.rollout(), "Feed", setup.layouts(1, 14), FEW_TICKS)
-    assert few[0]["runs"] == 13  # of 1,600 ticks
+def test_where_a_promise_is_broken_in_most_runs_is_said(
+    mindc: Call, dock: Path, monkeypatch: pytest.MonkeyPatch, how: str, key: str, here: str
+) -> None:
+    monkeypatch.setattr(promises, "FEW_TICKS", FEW_TICKS)
+    found, setup = bench(mindc, dock, "--runs", 4, how), prepared(MIND)
+    few = promises_in(setup.rollout(), "Feed", setup.layouts(1, 4), FEW_TICKS)
+    assert few[0]["runs"] == 3  # of 1,600 ticks
     there = {row.get("world", row.get("skill")): row.get("minds", [row])[0]["promises"] for row in found[key]}
     assert there.pop(here, found.get("promises")) == few
-    said = mindc("bench", dock, "--runs", 14, how).out.splitlines()
+    said = mindc("bench", dock, "--runs", 4, how).out.splitlines()
     rows = said[next(place for place, line in enumerate(said) if line.startswith("promise broken in")) :]
     assert here in rows[0]
     for i, (each, row) in enumerate(zip(few, rows[1:], strict=True)):
         others = {name: of[i]["broken_runs"] for name, of in there.items() if name != "SeekDock"}
         most = max(others.values())
         name, *cells = re.split("  +", row)
-        assert (name, cells[:2]) == (f"SeekDock {each['promise']}", [f"{each['broken_runs']} of 13", f"{most} of 13"])
+        assert (name, cells[:2]) == (f"SeekDock {each['promise']}", [f"{each['broken_runs']} of 3", f"{most} of 3"])
         assert cells[2:] == [*others][[*others.values()].index(most) :][: most > each["broken_runs"]]
     assert max(map(len, rows)) <= 80

@@ -98,7 +98,7 @@ def forget(*_: object) -> None:
     """A report or a warning that nobody reads."""
 
 
-def unwatched(save_every: float = 0.0, stop_after: int = 10**9) -> Watch:
-    """Save after every generation; stop after so many."""
+def unwatched(save_every: float = 1e9, stop_after: int = 10**9) -> Watch:
+    """Save in the end, or after so many seconds; stop after so many generations."""
     left = iter(range(10**9))
     return Watch(forget, forget, lambda: next(left) >= stop_after, perf_counter, save_every=save_every)

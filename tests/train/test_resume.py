@@ -15,12 +15,12 @@ from mindrun.train.training import train
 
 from tests.train.climbing import Sphere, lesson, manifest, unwatched
 
-KILLS = 20
+KILLS = 3
 CLIMB = Path(__file__).with_name("climb.py")
 
 
 def made(runs: Path) -> RunFolder:
-    return create(runs, manifest(lesson(500, attempts=3)), {}, {})
+    return create(runs, manifest(lesson(200, attempts=3)), {}, {})
 
 
 def end(run: RunFolder) -> tuple[bytes, bytes, bytes, list[dict[str, float | None]]]:
@@ -31,13 +31,13 @@ def end(run: RunFolder) -> tuple[bytes, bytes, bytes, list[dict[str, float | Non
     return *files, records
 
 
-def test_killed_at_twenty_random_moments_it_ends_in_the_same_bits(tmp_path: Path) -> None:
+def test_killed_at_random_moments_it_ends_in_the_same_bits(tmp_path: Path) -> None:
     undisturbed, disturbed = made(tmp_path), made(tmp_path)
-    train(undisturbed, Sphere(), unwatched(save_every=2.0))
+    train(undisturbed, Sphere(), unwatched())
     moments = random.Random(0)
     codes = [live(disturbed, moments.uniform(0, 0.06)) for _ in range(KILLS)]
     assert codes == [-signal.SIGKILL] * KILLS
-    assert len(read_progress(disturbed.folder)) < 1500
+    assert len(read_progress(disturbed.folder)) < 600
     assert subprocess.run([sys.executable, CLIMB, disturbed.folder], capture_output=True, check=False).returncode == 0
     assert end(disturbed) == end(undisturbed)
 
@@ -56,12 +56,12 @@ def test_stopped_and_resumed_after_any_generation_it_ends_in_the_same_bits(tmp_p
 
 
 def test_what_an_attempt_has_been_waiting_for_is_not_forgotten(tmp_path: Path) -> None:
-    records = stops_after_any_generation(tmp_path, manifest(lesson(24, attempts=2, patience=3)), 3)
+    records = stops_after_any_generation(tmp_path, manifest(lesson(24, attempts=2, patience=3)), 5)
     assert len(records) < 48
 
 
 def test_how_high_attempts_have_climbed_is_not_forgotten(tmp_path: Path) -> None:
-    records = stops_after_any_generation(tmp_path, manifest(lesson(16, attempts=4, rungs=2)), 3)
+    records = stops_after_any_generation(tmp_path, manifest(lesson(16, attempts=4, rungs=2)), 5)
     assert len(records) < 64
 
 
@@ -90,7 +90,7 @@ def test_the_previous_checkpoint_gives_the_same_bits(tmp_path: Path) -> None:
     course = manifest(lesson(9))
     undisturbed, damaged = create(tmp_path, course, {}, {}), create(tmp_path, course, {}, {})
     train(undisturbed, Sphere(), unwatched())
-    train(damaged, Sphere(), unwatched(stop_after=4))
+    train(damaged, Sphere(), unwatched(0.0, 4))
     (damaged.folder / "checkpoint").write_bytes(b"half a check")
     train(damaged, Sphere(), unwatched())
     assert end(damaged) == end(undisturbed)

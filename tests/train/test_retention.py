@@ -16,8 +16,7 @@ from mindrun.train.scoring import Purpose, layouts
 
 from mindlang.compiler.compile import load
 from mindlang.lock.status import trained_weights
-from mindlang.training.broken_promises import broken_promises
-from mindlang.training.held_influence import held_influence
+from mindlang.training.remarks import remarks
 from mindlang.training.retention import KEPT_LAYOUTS, TOLD_LAYOUTS, Retention
 from mindlang.training.standstill import idle_ticks, standstill
 from mindlang.training.subject import Subject, begin_run, open_subject
@@ -130,15 +129,15 @@ def test_a_master_that_decides_nothing_is_told_of(tmp_path: Path) -> None:
     run = begin_run(subject, lesson, 1, tmp_path / "runs", datetime.now(UTC), ())
     [drive] = [skill for skill in subject.graph.skills if skill.name == "Drive"]
     for number, does in ((0, "never influences Go and Avoid"), (9, "always influences Go and Avoid with 1.00")):
-        [said] = held_influence(run, subject, np.full(genes(drive), number, np.float32))
+        [said] = remarks(run, subject, np.full(genes(drive), number, np.float32))
         assert said.startswith(f"Drive {does}, in 4 runs: ")
     drawn = np.random.default_rng(5).uniform(-3, 3, (2, genes(drive))).astype(np.float32)
-    deciding, [one_of_each] = (held_influence(run, subject, genome) for genome in drawn)
+    deciding, [one_of_each] = (remarks(run, subject, genome) for genome in drawn)
     assert deciding == []
     assert one_of_each.startswith("Drive never influences Go and always influences Avoid with 1.00, ")
     [go] = [lesson for lesson in subject.graph.lessons if lesson.skill == "Go"]
     alone = begin_run(subject, go, 1, tmp_path / "runs", datetime.now(UTC), ())
-    assert held_influence(alone, subject, run.weights["Go"]) == [], "it has no subskills"
+    assert remarks(alone, subject, run.weights["Go"]) == [], "it has no subskills"
 
 
 @pytest.mark.parametrize(
@@ -155,7 +154,7 @@ def test_a_promise_that_a_taught_skill_breaks_itself_is_told_of(
     subject = subject_of(path)
     [lesson] = [each for each in subject.graph.lessons if each.skill == taught]
     run = begin_run(subject, lesson, 1, tmp_path / "runs", datetime.now(UTC), ())
-    found = broken_promises(run, subject, run.weights[taught])
+    found = [each for each in remarks(run, subject, run.weights[taught]) if "promise" in each]
     assert len(found) == told
     for each in found:
         assert re.match(r"Go breaks its own promise in (\d+) of \1 runs, maintains charge < 5%: ", each)

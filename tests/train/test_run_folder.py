@@ -134,16 +134,16 @@ def test_a_folder_that_cannot_be_written_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_full_disk_leaves_the_last_checkpoint_and_the_run_goes_on_later(tmp_path: Path) -> None:
-    run = made(tmp_path, generations=200)
+    run = made(tmp_path, generations=80)
     code = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (6000, 6000))"
     full = climb(run.folder, code)
     assert full.returncode == 1
     assert full.stderr == f"cannot write to {run.folder}: File too large\n"
     assert climb(run.folder).returncode == 0
-    undisturbed = made(tmp_path, generations=200)
+    undisturbed = made(tmp_path, generations=80)
     train(undisturbed, Sphere(), unwatched())
     assert (run.folder / "weights.npy").read_bytes() == (undisturbed.folder / "weights.npy").read_bytes()
-    assert [record["generation"] for record in read_progress(run.folder)] == list(range(1, 201))
+    assert [record["generation"] for record in read_progress(run.folder)] == list(range(1, 81))
 
 
 def climb(folder: Path, before: str = "") -> "subprocess.CompletedProcess[str]":

@@ -58,15 +58,6 @@ def train_apart(folder: Path, *arguments: str) -> "subprocess.CompletedProcess[s
     )
 
 
-@pytest.fixture(scope="module")
-def whole(tmp_path_factory: pytest.TempPathFactory) -> str:
-    """The weights with which the long training ends where nothing interrupts it."""
-    folder = tmp_path_factory.mktemp("undisturbed")
-    (folder / "drive.mind").write_text(MIND)
-    weights: str = json.loads(train_apart(folder, *LONG).stdout)["weights"]
-    return weights
-
-
 @pytest.fixture
 def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
@@ -142,41 +133,17 @@ def test_what_was_learnt_is_safe_where_it_cannot_be_kept(train: Call, project: P
     assert "after 1 generation, in" in kept.err
 
 
-def test_what_a_procedure_prints_is_talk(project: Path) -> None:
+def test_what_a_procedure_prints_is_talk(train: Call, project: Path) -> None:
     (project / "say.py").write_text("print('begins')\ndef both(x):\n    print('turns')\n    return [x, x]\n")
     skill = "skill Say is procedure from say.both\n  reads bearing\n  drives left_wheel\n  drives right_wheel\n"
     said = MIND.replace("skill Drive", f"{skill}skill Drive").replace("influences Go", "influences Say")
     (project / "drive.mind").write_text(said)
-    taught = subprocess.run(
-        [*TRAIN, "drive.mind", "Drive", "--generations", "1", "--json"], capture_output=True, text=True, check=True
-    )
-    assert json.loads(taught.stdout)["skill"] == "Drive"
-    assert {"begins", "turns"} <= set(taught.stderr.splitlines())
+    taught = train("drive.mind", "Drive", "--generations", "1", "--json")
+    assert json.loads(taught.out)["skill"] == "Drive"
+    assert {"begins", "turns"} <= set(taught.err.splitlines())
 
 
-def test_ctrl_c_finishes_the_generation_and_the_run_goes_on_as_if_nothing_had_been(
-    train: Call, project: Path, whole: str
-) -> None:
-    run = interrupted(project)
-    assert json.loads(train("--resume", run, "--json").out)["weights"] == whole
-    once_more = train("--resume", run)
-    assert (once_more.code, "has finished already" in once_more.err) == (0, True)
-
-
-def test_the_same_command_goes_on_where_it_was_stopped(train: Call, project: Path, whole: str) -> None:
-    run = interrupted(project)
-    assert json.loads(train(*LONG).out)["weights"] == whole
-    assert [str(folder) for folder in (project / "runs" / "Go-on-Reach").iterdir()] == [run]
-    train(*LONG, "--generations", "1")
-    assert len(list((project / "runs" / "Go-on-Reach").iterdir())) == 2
-
-
-def test_a_scale_multiplies_the_generations(train: Call, project: Path) -> None:
-    taught = train("drive.mind", "--scale", "1.5", "--json", "--seed", "1")
-    assert [json.loads(line)["generations"] for line in taught.out.splitlines()] == [4, 3]
-
-
-def test_a_run_whose_source_has_changed_is_refused(train: Call, project: Path) -> None:
+def test_ctrl_c_finishes_the_generation_and_the_run_goes_on_as_if_nothing_had_been(train: Call, project: Path) -> None:
     run = interrupted(project)
     comments = MIND.replace("master", "# a comment changes nothing\nmaster")
     (project / "drive.mind").write_text(comments.replace("Go is mlp hidden 1", "Go is mlp hidden 2"))
@@ -184,7 +151,18 @@ def test_a_run_whose_source_has_changed_is_refused(train: Call, project: Path) -
     assert refused.code == 1
     assert "has changed since this run of Go began" in refused.err
     (project / "drive.mind").write_text(comments)
-    assert train("--resume", run).code == 0
+    found = json.loads(train(*LONG).out)["weights"]
+    assert [str(folder) for folder in (project / "runs" / "Go-on-Reach").iterdir()] == [run]
+    once_more = train("--resume", run)
+    assert (once_more.code, "has finished already" in once_more.err) == (0, True)
+    train(*LONG, "--generations", "1")
+    assert len(list((project / "runs" / "Go-on-Reach").iterdir())) == 2
+    assert json.loads(train(*LONG, "--runs", "undisturbed").out)["weights"] == found
+
+
+def test_a_scale_multiplies_the_generations(train: Call, project: Path) -> None:
+    taught = train("drive.mind", "--scale", "1.5", "--json", "--seed", "1")
+    assert [json.loads(line)["generations"] for line in taught.out.splitlines()] == [4, 3]
 
 
 def interrupted(project: Path) -> str:

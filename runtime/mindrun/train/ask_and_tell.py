@@ -8,7 +8,7 @@ genome, the centre, and those that were drawn around it are forgotten once it ha
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.kinds.learners import EvolutionStrategy, Genetic, Learner
+from mindrun.kinds.learners import Genetic, Learner
 from mindrun.train.population import Draw, Genomes, Population, Scores, bounded, founder_count, order, worst_if_nan
 
 TOURNAMENT_SIZE = 4
@@ -22,34 +22,27 @@ def ask(population: Population, learner: Learner, start: Genomes, draw: Draw, rn
     """
     if population.generation == 0 and not len(start):
         return bounded(draw(founder_count(learner), rng))
-    match learner:
-        case Genetic():
-            return breed(population, learner, rng) if population.generation else variants(start, learner, rng)
-        case EvolutionStrategy():
-            return _ask_strategy(population, learner, start, rng)
+    if isinstance(learner, Genetic):
+        return breed(population, learner, rng) if population.generation else variants(start, learner, rng)
+    centre = _centre(population, start)
+    steps = rng.standard_normal((learner.population, centre.shape[1]), np.float32)
+    return bounded(centre + np.float32(learner.mutation) * steps)
 
 
 def tell(population: Population, learner: Learner, start: Genomes, genomes: Genomes, scores: Scores) -> Population:
     """The next population, by what these genomes scored; what is not a number counts as -inf."""
     scores = worst_if_nan(scores)
-    match learner:
-        case Genetic():
-            return _tell_genetic(population, learner, genomes, scores)
-        case EvolutionStrategy():
-            return _tell_strategy(population, genomes, scores, start)
+    if not isinstance(learner, Genetic):
+        return _tell_strategy(population, genomes, scores, start)
+    if len(genomes) > learner.population:  # as of founders
+        best = order(scores)[: learner.population]
+        genomes, scores = genomes[best], scores[best]
+    return Population(genomes, scores, population.generation + 1)
 
 
 def kept_count(learner: Learner) -> int:
     """How many genomes a population has between two generations."""
     return learner.population if isinstance(learner, Genetic) else 1
-
-
-def _tell_genetic(population: Population, learner: Genetic, genomes: Genomes, scores: Scores) -> Population:
-    """The next population: these genomes, or the best of them where there are more, as of founders."""
-    if len(genomes) > learner.population:
-        best = order(scores)[: learner.population]
-        genomes, scores = genomes[best], scores[best]
-    return Population(genomes, scores, population.generation + 1)
 
 
 def variants(start: Genomes, learner: Genetic, rng: np.random.Generator) -> Genomes:
@@ -91,15 +84,6 @@ def mutate(genomes: Genomes, learner: Genetic, rng: np.random.Generator) -> Geno
     hit = rng.random(genomes.shape, np.float32) < share
     step = spread * rng.standard_normal(genomes.shape, np.float32)
     return genomes + np.where(hit, step, np.float32(0))
-
-
-def _ask_strategy(
-    population: Population, learner: EvolutionStrategy, start: Genomes, rng: np.random.Generator
-) -> Genomes:
-    """The genomes [individuals, weights] to score next, around the centre: at first `start` [1, weights]."""
-    centre = _centre(population, start)
-    steps = rng.standard_normal((learner.population, centre.shape[1]), np.float32)
-    return bounded(centre + np.float32(learner.mutation) * steps)
 
 
 def _tell_strategy(population: Population, genomes: Genomes, scores: Scores, start: Genomes) -> Population:

@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 
 from mindrun.graph.graph import Lesson, Need, Task
 from mindrun.graph.run_scores import Scores as RunScores
+from mindrun.graph.weights import Weights
 from mindrun.kinds.learners import Learner, run_lengths
 from mindrun.train.ask_and_tell import ask, kept_count, tell
 from mindrun.train.lesson_state import AttemptState, Course, Record, Verdict, rung_at
-from mindrun.train.population import Genomes, Scores, order
+from mindrun.train.population import Scores, order
 from mindrun.train.scoring import (
     Marks,
     Purpose,
@@ -52,56 +53,37 @@ class Stretch:
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """The result of a stretch: `records` and `champions` [records, weights] of its generations, and the state after it.
+    """The result of a stretch: the records of its generations, the champion of each, and the state after it.
 
     `verdict` is there where the attempt has ended.
     """
 
     state: AttemptState
     records: tuple[Record, ...]
-    champions: Genomes
+    champions: tuple[Weights, ...]
     verdict: Verdict | None
 
-
-class JoinedSegments:
-    """Segments of an attempt as one, each from where that before ends; their arrays are joined when they are read."""
-
-    def __init__(self, first: Segment) -> None:
-        self.state, self.verdict = first.state, first.verdict
-        self._records, self._champions = [*first.records], [first.champions]
-
-    def add(self, segment: Segment) -> None:
-        """Add a segment that begins where this ends."""
-        self.state, self.verdict = segment.state, segment.verdict
-        self._records.extend(segment.records)
-        self._champions.append(segment.champions)
-
-    def as_segment(self) -> Segment:
-        """All of them as one segment."""
-        self._champions = [np.concatenate(self._champions)]
-        return Segment(self.state, tuple(self._records), self._champions[0], self.verdict)
+    def then(self, later: "Segment") -> "Segment":
+        """This segment and one that begins where it ends, as one."""
+        return replace(later, records=(*self.records, *later.records), champions=(*self.champions, *later.champions))
 
 
 def advance(course: Course, scorer: Scorer, stretch: Stretch, clock: Clock, most: int = SEGMENT_GENERATIONS) -> Segment:
     """Do a stretch: until the attempt ends by itself, comes to a rung, or has had seconds or generations enough."""
-    state, records, champions = stretch.state, list[Record](), [stretch.state.champion[:0]]
-    began, ends = clock(), stretch.cut
-    verdict = judge(course, scorer, state) if ends else None
-    while not ends and (not records or not _pauses(course.lesson, state, len(records), clock() - began, most)):
+    state, records, champions, began = stretch.state, list[Record](), list[Weights](), clock()
+    verdict = judge(course, scorer, state) if stretch.cut else None
+    while verdict is None:
         start = clock()
         state, record = generation(course, scorer, stretch.number, state)
         enough, record = is_enough(course, scorer, stretch.number, state, record)
-        if ends := enough or ends_by_itself(course.lesson, state):
+        if enough or ends_by_itself(course.lesson, state):
             verdict = judge(course, scorer, state)
         records.append(replace(record, seconds=clock() - start))
-        champions.append(state.champion)
-    return Segment(state, tuple(records), np.concatenate(champions), verdict)
-
-
-def _pauses(lesson: Lesson, state: AttemptState, generations: int, seconds: float, most: int) -> bool:
-    """True if a segment ends here: at a rung, or after enough generations or seconds."""
-    is_at_rung = rung_at(lesson, state.population.generation) is not None
-    return is_at_rung or seconds >= SEGMENT_SECONDS or generations >= most
+        champions.append(state.champion[0])
+        is_at_rung = rung_at(course.lesson, state.population.generation) is not None
+        if is_at_rung or clock() - began >= SEGMENT_SECONDS or len(records) >= most:
+            break
+    return Segment(state, tuple(records), tuple(champions), verdict)
 
 
 def generation(course: Course, scorer: Scorer, number: int, state: AttemptState) -> tuple[AttemptState, Record]:

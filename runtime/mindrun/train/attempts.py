@@ -6,17 +6,18 @@ retrospect, where it stood at the rung.
 
 from collections import deque
 from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
 from heapq import heappop, heappush
 from queue import Empty, SimpleQueue
-from threading import Event, Thread
+from threading import Event
 from typing import Any, Protocol
 
 import numpy as np
 
-from mindrun.graph.graph import Task
 from mindrun.graph.run_scores import Scores as RunScores
-from mindrun.train.attempt import Clock, JoinedSegments, Segment, Stretch, advance
+from mindrun.graph.weights import Weights
+from mindrun.train.attempt import Clock, Segment, Stretch, advance
 from mindrun.train.lesson_state import (
     AttemptState,
     Course,
@@ -32,8 +33,7 @@ from mindrun.train.lesson_state import (
     judged,
     rung_at,
 )
-from mindrun.train.population import Genomes
-from mindrun.train.scoring import Scorer, is_one_world
+from mindrun.train.scoring import Scorer, WrappedScorer
 
 POLL_SECONDS = 0.2  # to wait for a segment before who asks may look at something else
 
@@ -55,8 +55,8 @@ class Step:
 
     state: LessonState
     records: tuple[Record, ...]
-    champions: Genomes
-    ahead: Ahead = NOTHING_AHEAD
+    champions: tuple[Weights, ...]
+    ahead: Ahead
 
 
 class AttemptExecutor(Protocol):
@@ -80,15 +80,12 @@ class InThisThread:
         self._asked: tuple[int, Stretch] | None = None
 
     def has_room(self) -> bool:
-        """True if no stretch is asked for."""
         return self._asked is None
 
     def submit(self, job: int, stretch: Stretch) -> None:
-        """Ask for a stretch."""
         self._asked = job, stretch
 
     def next_result(self) -> tuple[int, Segment] | None:
-        """The job, and the segment that comes of its stretch now."""
         if self._asked is None:
             return None
         (job, stretch), self._asked = self._asked, None
@@ -104,68 +101,51 @@ class StretchThreads:
     def __init__(self, course: Course, cores: int, on: Callable[[int], Any], clock: Clock) -> None:
         self._course, self._cores, self._on, self._clock = course, cores, on, clock
         self._asked: list[tuple[int, Stretch]] = []
-        self._done: SimpleQueue[tuple[int, Segment] | BaseException] = SimpleQueue()
-        self._at_work, self._stop = 0, Event()
+        self._jobs: dict[Future[Segment], int] = {}
+        self._ended: SimpleQueue[Future[Segment]] = SimpleQueue()
+        self._pool, self._stop = ThreadPoolExecutor(cores), Event()
 
     def has_room(self) -> bool:
-        """True if a core would be idle without another stretch."""
-        return self._at_work + len(self._asked) < self._cores
+        return len(self._jobs) + len(self._asked) < self._cores
 
     def submit(self, job: int, stretch: Stretch) -> None:
         """Ask for a stretch; it begins when all that there are have been asked for."""
         self._asked.append((job, stretch))
 
     def next_result(self) -> tuple[int, Segment] | None:
-        """A job and its segment; None after POLL_SECONDS without one. Whatever a stretch raises is raised here."""
-        self._begin()
+        """None after POLL_SECONDS without a segment. Whatever a stretch raises is raised here."""
+        at_work = len(self._jobs) + len(self._asked)
+        for job, stretch in self._asked:
+            scorer = Stoppable(self._on(-(-self._cores // at_work)), self._stop)
+            future = self._pool.submit(advance, self._course, scorer, stretch, self._clock, most=1)
+            self._jobs[future] = job
+            future.add_done_callback(self._ended.put)
+        self._asked.clear()
         try:
-            done = self._done.get(timeout=POLL_SECONDS)
+            ended = self._ended.get(timeout=POLL_SECONDS)
         except Empty:
             return None
-        self._at_work -= 1
-        if isinstance(done, BaseException):
-            raise done
-        return done
+        return self._jobs.pop(ended), ended.result()
 
     def close(self) -> None:
         """Have all stretches end in the middle of what they do; nobody waits for that."""
         self._stop.set()
-
-    def _begin(self) -> None:
-        self._at_work += len(self._asked)
-        for job, stretch in self._asked:
-            scorer = Stoppable(self._on(-(-self._cores // self._at_work)), self._stop)
-            Thread(target=self._do, args=(job, stretch, scorer), daemon=True).start()
-        self._asked.clear()
-
-    def _do(self, job: int, stretch: Stretch, scorer: "Stoppable") -> None:
-        try:
-            self._done.put((job, advance(self._course, scorer, stretch, self._clock, most=1)))
-        except BaseException as error:
-            self._done.put(error)
+        self._pool.shutdown(wait=False)
 
 
 class ScoringStoppedError(Exception):
     """Scoring was stopped, since nobody waits for the scores any more."""
 
 
-class Stoppable:
+class Stoppable(WrappedScorer):
     """A scorer that asks another until `stop` is set: then it raises ScoringStoppedError, in the middle of its runs."""
 
     def __init__(self, scorer: Any, stop: Event) -> None:
-        self._scorer, self._stop = scorer, stop
-        self.genome_length: int = scorer.genome_length
-        self.task: Task = scorer.task
-        self.is_one_world = is_one_world(scorer)
-
-    def draw(self, count: int, rng: np.random.Generator) -> Genomes:
-        """Random genomes [count, genome_length] for learning to begin with."""
-        genomes: Genomes = self._scorer.draw(count, rng)
-        return genomes
+        super().__init__(scorer)
+        self._stop = stop
 
     def score(self, genomes: Any, seeds: Any, *, ticks: int | None = None) -> RunScores:
-        """Every genome on every seed."""
-        results: RunScores = self._scorer.score(genomes, seeds, self._ran, ticks=ticks)
+        results: RunScores = self.rollout.score(genomes, seeds, self._ran, ticks=ticks)
         return results
 
     def _ran(self, runs: float) -> None:
@@ -180,7 +160,7 @@ class Track:
     number: int
     state: AttemptState
     job: int = -1  # that is at it; -1 for none
-    segments: deque[JoinedSegments] = field(default_factory=deque)
+    segments: deque[Segment] = field(default_factory=deque)
     at_rung: dict[int, AttemptState] = field(default_factory=dict)  # where it stood there
     cut: AttemptState | None = None  # where it was found behind
     verdict: Verdict | None = None
@@ -201,7 +181,6 @@ class Attempts:
     asked: int = 0
 
     def __post_init__(self) -> None:
-        """Take up the attempt at work, whose rungs below have been decided."""
         lesson, number = self.course.lesson, self.lesson.attempt
         count = lesson.learner.attempts
         self.rows = np.full((count, lesson.learner.rungs), -np.inf)
@@ -237,7 +216,7 @@ class Attempts:
             return
         track.job, track.verdict = -1, segment.verdict
         if track.cut is not None:
-            track.segments[-1].verdict = segment.verdict
+            track.segments[-1] = track.segments[-1].then(segment)
         else:
             track.state = segment.state
             self._append(track, segment)
@@ -250,10 +229,9 @@ class Attempts:
         while (track := self.tracks.get(self.lesson.attempt)) and track.segments:
             if is_over(self.course.lesson, self.lesson) or self._is_open(track, track.segments[0]):
                 return
-            yield self._gone_on(track, track.segments.popleft().as_segment())
+            yield self._gone_on(track, track.segments.popleft())
 
     def ahead(self) -> Ahead:
-        """The work that attempts behind that at work have done."""
         done = [t.state.population.generation for number, t in self.tracks.items() if number > self.lesson.attempt]
         return Ahead(sum(map(bool, done)), sum(done))
 
@@ -264,17 +242,15 @@ class Attempts:
 
     def _append(self, track: Track, segment: Segment) -> None:
         """Keep a segment, joined to the one before unless a decision may come between them."""
-        before = track.segments[-1] if track.segments else None
-        if before is not None and all(before.state is not at_rung for at_rung in track.at_rung.values()):
-            before.add(segment)
-        else:
-            track.segments.append(JoinedSegments(segment))
+        if track.segments and all(track.segments[-1].state is not at_rung for at_rung in track.at_rung.values()):
+            segment = track.segments.pop().then(segment)
+        track.segments.append(segment)
         rung = rung_at(self.course.lesson, segment.state.population.generation)
         if rung is not None:
             track.at_rung[rung] = segment.state
             self.rows[track.number, rung] = segment.state.climbed[rung]
 
-    def _is_open(self, track: Track, segment: JoinedSegments) -> bool:
+    def _is_open(self, track: Track, segment: Segment) -> bool:
         """True if it is not known yet what becomes of an attempt behind a segment."""
         if segment.verdict is not None:
             return False

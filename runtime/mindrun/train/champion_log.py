@@ -5,7 +5,7 @@ CRC-32 of the row, and the weights. Where it is full, no more champions are kept
 comes about every ten generations, so that 1,600 weights (examples/collect) take some 400,000 of them.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from struct import Struct
@@ -34,7 +34,6 @@ class Champion:
 
     @property
     def position(self) -> Position:
-        """The attempt and the generation that found it."""
         return self.attempt, self.generation
 
 
@@ -69,36 +68,26 @@ def rows_that_fit(weights: int) -> int:
 
 def read_champions(folder: Path) -> list[Champion]:
     """The whole rows of a run's file; none where there is no such file, and none behind a row that is damaged."""
+    found = list[Champion]()
     try:
         data = read_whole(folder / CHAMPION_ROWS, MAX_ROWS_BYTES)
     except OSError:
-        return []
-    return list(_champions(data))
-
-
-def _champions(data: bytes) -> Iterator[Champion]:
+        return found
     begin = len(MAGIC) + LENGTH.size
     if not data.startswith(MAGIC) or len(data) < begin:
-        return
+        return found
     count = LENGTH.unpack_from(data, len(MAGIC))[0]
     size = ROW.size + 4 * count
-    last = 0, 0
     for at in range(begin, len(data) - size + 1, size):
-        attempt, generation, checksum = ROW.unpack_from(data, at)
-        found = Champion(attempt, generation, np.frombuffer(data, "<f4", count, at + ROW.size))
-        if _checksum(found) != checksum or not last < found.position:
-            return
-        last = found.position
-        yield found
+        attempt, generation, _ = ROW.unpack_from(data, at)
+        champion = Champion(attempt, generation, np.frombuffer(data, "<f4", count, at + ROW.size))
+        last = found[-1].position if found else (0, 0)
+        if _row(champion) != data[at : at + size] or not last < champion.position:
+            break
+        found.append(champion)
+    return found
 
 
 def _row(champion: Champion) -> bytes:
-    return ROW.pack(*champion.position, _checksum(champion)) + _weights(champion)
-
-
-def _checksum(champion: Champion) -> int:
-    return crc32(_weights(champion), crc32(b"%d %d" % champion.position))
-
-
-def _weights(champion: Champion) -> bytes:
-    return np.ascontiguousarray(champion.genome, "<f4").tobytes()
+    weights = np.ascontiguousarray(champion.genome, "<f4").tobytes()
+    return ROW.pack(*champion.position, crc32(weights, crc32(b"%d %d" % champion.position))) + weights

@@ -19,7 +19,7 @@ from mindrun.files.regular_files import read_whole
 from mindrun.files.strict_json import is_whole, parsed
 from mindrun.train import RunError
 from mindrun.train.lesson_state import AttemptState, LessonState
-from mindrun.train.population import Population
+from mindrun.train.population import Population, Scores
 
 NAME, PREVIOUS = "checkpoint", "checkpoint.previous"
 MAGIC = b"mind checkpoint 6\n"
@@ -30,18 +30,18 @@ MAX_COUNT = 2**53  # of any count
 NUMBER_TYPES = ("<f4", "<f8", "<i8")
 
 Arrays = dict[str, NDArray[Any]]
-TYPES = {  # of each array in the order of the file: what its numbers are, and how many dimensions it has
-    "genomes": ("<f4", 2),
-    "scores": ("<f8", 1),
-    "champion": ("<f4", 2),
-    "rival": ("<f4", 2),
-    "rungs": ("<f8", 2),
-    "champions": ("<f4", 2),
-    "lengths": ("<i8", 1),
-    "verdicts": ("<f8", 2),
-    "passed": ("<i8", 1),
-    "floats": ("<f8", 1),
-    "counts": ("<i8", 1),
+TYPES: dict[str, tuple[Any, ...]] = {  # of each array in the order of the file: its numbers, and how many on each side
+    "genomes": ("<f4", "individuals", "weights"),
+    "scores": ("<f8", "individuals"),
+    "champion": ("<f4", "0 or 1", "weights"),
+    "rival": ("<f4", "0 or one", "weights"),
+    "rungs": ("<f8", "begun", "rungs"),
+    "champions": ("<f4", "ended", "weights"),
+    "lengths": ("<i8", "ended"),
+    "verdicts": ("<f8", "ended", 2),
+    "passed": ("<i8", "ended"),
+    "floats": ("<f8", 2),
+    "counts": ("<i8", 7),
 }
 
 
@@ -93,8 +93,7 @@ def pack(state: LessonState, run: str) -> bytes:
 def unpack(data: bytes, run: str) -> LessonState | None:
     """The state in these bytes; None where they are damaged, of another run, or of no run at all."""
     arrays = unsealed(MAGIC, {"run": run}, data) or {}
-    types = {name: (array.dtype.str, array.ndim) for name, array in arrays.items()}
-    return _state(arrays) if [*types.items()] == [*TYPES.items()] and _are_consistent(arrays) else None
+    return _state(arrays) if [*arrays] == [*TYPES] and _are_consistent(arrays) else None
 
 
 def sealed(magic: bytes, said: Mapping[str, object], arrays: Arrays) -> bytes:
@@ -134,38 +133,37 @@ def unsealed(magic: bytes, said: Mapping[str, object], data: bytes) -> Arrays | 
 
 def _are_consistent(arrays: Arrays) -> bool:
     """True if the arrays fit one another in shape, and their numbers are such as a run has."""
-    population, weights = arrays["genomes"].shape
-    ended = len(arrays["champions"])
-    fit = (
-        arrays["scores"].shape == (population,)
-        and all(arrays[name].shape[1] == weights for name in ("champion", "rival", "champions"))
-        and max(len(arrays["champion"]), len(arrays["rival"])) <= 1
-        and all(arrays[name].shape == (ended,) for name in ("lengths", "passed"))
-        and arrays["verdicts"].shape == (ended, 2)
-        and len(arrays["rungs"]) == ended + 1
-        and (arrays["floats"].shape, arrays["counts"].shape) == ((2,), (7,))
-    )
-    if not fit:
+    sizes: dict[Any, int] = {2: 2, 7: 7}
+    for (dtype, *sides), array in zip(TYPES.values(), arrays.values(), strict=True):
+        if array.dtype.str != dtype or array.ndim != len(sides):
+            return False
+        if any(sizes.setdefault(side, length) != length for side, length in zip(sides, array.shape, strict=True)):
+            return False
+    if max(sizes["0 or 1"], sizes["0 or one"]) > 1 or sizes["begun"] != sizes["ended"] + 1:
         return False
     attempt, generation, *_, told_apart = arrays["counts"].tolist()
     return bool(
         all(np.isfinite(arrays[name]).all() for name in ("genomes", "champion", "rival", "champions"))
         and not any(np.isnan(arrays[name]).any() for name in ("scores", "rungs", "verdicts", "floats"))
         and all(((arrays[name] >= 0) & (arrays[name] <= MAX_COUNT)).all() for name in ("lengths", "counts"))
-        and (attempt, generation > 0) == (ended, population > 0)
+        and (attempt, generation > 0) == (sizes["ended"], sizes["individuals"] > 0)
         and told_apart <= 1
         and np.isin(arrays["passed"], (0, 1)).all()
     )
 
 
 def _state(arrays: Arrays) -> LessonState:
-    attempt, generation, since, generations, ticks, faults, told_apart = (int(count) for count in arrays["counts"])
-    best, seconds = (float(number) for number in arrays["floats"])
+    attempt, generation, since, generations, ticks, faults, told_apart = arrays["counts"].tolist()
+    best, seconds = arrays["floats"].tolist()
+    now = attempt_state(arrays, generation, since, arrays["rungs"][-1], told_apart)
+    ended = arrays["rungs"][:-1], arrays["champions"], arrays["lengths"], arrays["verdicts"], arrays["passed"] == 1
+    return LessonState(attempt, now, *ended, best, generations, ticks, seconds, faults, now.told_apart)
+
+
+def attempt_state(arrays: Arrays, generation: int, since: int, climbed: Scores, told_apart: int) -> AttemptState:
+    """The state of an attempt whose population, champion and rival are among arrays."""
     population = Population(arrays["genomes"], arrays["scores"], generation)
-    rungs, climbed = arrays["rungs"][:-1], arrays["rungs"][-1]
-    now = AttemptState(population, arrays["champion"], arrays["rival"], since, climbed, bool(told_apart))
-    ended = rungs, arrays["champions"], arrays["lengths"], arrays["verdicts"], arrays["passed"] == 1
-    return LessonState(attempt, now, *ended, best, generations, ticks, seconds, faults, bool(told_apart))
+    return AttemptState(population, arrays["champion"], arrays["rival"], since, climbed, bool(told_apart))
 
 
 def _read(path: Path, run: str) -> LessonState | None:

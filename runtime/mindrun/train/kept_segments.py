@@ -5,7 +5,7 @@ form of a checkpoint; one that is damaged, or of another run or build, is as non
 """
 
 from contextlib import suppress
-from dataclasses import astuple
+from dataclasses import astuple, fields
 from math import isnan, nan
 from pathlib import Path
 
@@ -13,21 +13,19 @@ import numpy as np
 
 from mindrun.files.atomic_write import write
 from mindrun.files.regular_files import read_whole
-from mindrun.train.attempt import Clock, JoinedSegments, Segment, Stretch
+from mindrun.train.attempt import Clock, Segment, Stretch
 from mindrun.train.attempts import AttemptExecutor
-from mindrun.train.checkpoint import Arrays, sealed, unsealed
+from mindrun.train.checkpoint import Arrays, attempt_state, sealed, unsealed
 from mindrun.train.lesson_state import AttemptState, Course, Record, Verdict, begin_attempt, rung_at
 from mindrun.train.manifest import own_build
-from mindrun.train.population import Population
 
 NAME = "ahead"
 MAGIC = b"mind attempts ahead 2\n"
 MAX_FILE_BYTES = 1 << 30
 SAVE_SECONDS = 2.0  # between two times that the file is written anew, at least
 MAX_SAVE_SHARE = 0.05  # of the time that goes into writing it
-RECORD_NUMBERS, VERDICT_NUMBERS = 9, 5  # of a record and a verdict, in the order of their fields; NaN for None
 
-Chain = list[JoinedSegments]  # of an attempt, from rung to rung, each from where that before ends
+Chain = list[Segment]  # of an attempt, from rung to rung, each from where that before ends
 
 
 class KeptSegments:
@@ -45,7 +43,7 @@ class KeptSegments:
         before = begin_attempt(self.course)
         for segment in [] if stretch.cut else self.chains.get(stretch.number, []):
             if is_same(before, stretch.state):
-                return segment.as_segment()
+                return segment
             before = segment.state
         return None
 
@@ -56,25 +54,22 @@ class KeptSegments:
         if stretch.cut or not is_same(start, stretch.state):
             return
         if chain and rung_at(self.course.lesson, start.population.generation) is None:
-            chain[-1].add(segment)
-        else:
-            chain.append(JoinedSegments(segment))
+            segment = chain.pop().then(segment)
+        chain.append(segment)
 
     def forget(self, below: int) -> None:
-        """Forget the attempts before one."""
-        for number in [number for number in self.chains if number < below]:
-            del self.chains[number]
+        self.chains = {number: chain for number, chain in self.chains.items() if number >= below}
 
     def save(self) -> None:
         """Write the file, as far as that can be: it spares work, and nothing depends on it."""
         if not any(self.chains.values()):
             self.path.unlink(missing_ok=True)
             return
-        rows = ((number, place, each) for number, chain in self.chains.items() for place, each in enumerate(chain))
         arrays = {
             f"{number} {place} {name}": array
-            for number, place, each in rows
-            for name, array in _arrays(each.as_segment()).items()
+            for number, chain in self.chains.items()
+            for place, segment in enumerate(chain)
+            for name, array in _arrays(segment).items()
         }
         with suppress(OSError):
             write(self.path, sealed(MAGIC, self._said, arrays))
@@ -87,7 +82,7 @@ class KeptSegments:
             segments.setdefault((int(number), int(place)), {})[name] = array
         chains = dict[int, Chain]()
         for (attempt, _), found in sorted(segments.items(), key=lambda each: each[0]):
-            chains.setdefault(attempt, []).append(JoinedSegments(_segment(found, self.course)))
+            chains.setdefault(attempt, []).append(_segment(found, self.course))
         return chains
 
 
@@ -100,47 +95,39 @@ class RememberingExecutor:
         self._first = self._at = -1  # the attempt that the lesson was at, which checkpoints have; and is at now
         self._ended = set[int]()
         self._asked: dict[int, Stretch] = {}
-        self._found: list[tuple[int, Stretch, Segment]] = []
+        self._found: list[tuple[int, Segment]] = []
 
     def has_room(self) -> bool:
-        """True if a worker would be idle without another stretch."""
         return self._stretches.has_room()
 
     def submit(self, job: int, stretch: Stretch) -> None:
-        """Ask for a stretch; the first is of the attempt that the lesson is at."""
+        """The first stretch is of the attempt that the lesson is at."""
         if self._first < 0:
             self._first = self._at = stretch.number
-        if (segment := self._kept.find(stretch)) is not None:
-            self._found.append((job, stretch, segment))
-            return
         self._asked[job] = stretch
-        self._stretches.submit(job, stretch)
+        if (segment := self._kept.find(stretch)) is not None:
+            self._found.append((job, segment))
+        else:
+            self._stretches.submit(job, stretch)
 
     def next_result(self) -> tuple[int, Segment] | None:
-        """A job and its segment; None after a while without one."""
-        if self._found:
-            job, stretch, segment = self._found.pop(0)
-            if segment.verdict is not None:
-                self._ended.add(stretch.number)
-            return job, segment
-        if (done := self._stretches.next_result()) is not None:
-            job, segment = done
-            self._keep(self._asked.pop(job), segment)
-        return done
-
-    def _keep(self, stretch: Stretch, segment: Segment) -> None:
-        """Keep a segment, and forget the attempts that the lesson has come past: all up to there have ended."""
+        done = self._found.pop(0) if self._found else self._stretches.next_result()
+        if done is None:
+            return None
+        job, segment = done
+        stretch = self._asked.pop(job)
         if stretch.number > self._first:
             self._kept.put(stretch, segment)
         if segment.verdict is not None:
             self._ended.add(stretch.number)
-        while self._at in self._ended:
+        while self._at in self._ended:  # the lesson has come past it: all up to there have ended
             self._at += 1
             self._kept.forget(self._at)
         if (began := self._clock()) >= self._due:
             self._kept.save()
             now = self._clock()
             self._due = now + max(SAVE_SECONDS, (now - began) / MAX_SAVE_SHARE)
+        return done
 
 
 def is_same(one: AttemptState, other: AttemptState) -> bool:
@@ -151,7 +138,6 @@ def is_same(one: AttemptState, other: AttemptState) -> bool:
 
 
 def _arrays(segment: Segment) -> Arrays:
-    """A segment of an attempt as arrays by name."""
     state, verdict = segment.state, segment.verdict
     records = [[nan if value is None else value for value in astuple(record)] for record in segment.records]
     ends = [] if verdict is None else [[*verdict.scores, verdict.passed, verdict.ticks, verdict.faults]]
@@ -162,30 +148,27 @@ def _arrays(segment: Segment) -> Arrays:
         "champion": state.champion,
         "rival": state.rival,
         "climbed": state.climbed,
-        "champions": segment.champions,
-        "records": np.array(records, np.float64).reshape(-1, RECORD_NUMBERS),
-        "verdict": np.array(ends, np.float64).reshape(-1, VERDICT_NUMBERS),
+        "champions": np.array(segment.champions, np.float32),
+        "records": np.array(records, np.float64),
+        "verdict": np.array(ends, np.float64).reshape(-1, len(fields(Verdict)) + 1),
     }
 
 
 def _segment(arrays: Arrays, course: Course) -> Segment:
     """The segment that these arrays are; ValueError where it is none of the course."""
     generation, since, told_apart = arrays["counts"].tolist()
-    genomes, champion, rival, champions = (arrays[name] for name in ("genomes", "champion", "rival", "champions"))
-    weights = course.start.shape[1]
-    if any(each.shape[1] != weights or not np.isfinite(each).all() for each in (genomes, champion, rival, champions)):
-        raise ValueError("its genomes are not those of the course")
-    population = Population(genomes, arrays["scores"], generation)
-    state = AttemptState(population, champion, rival, since, arrays["climbed"], bool(told_apart))
-    records = tuple(map(_record, arrays["records"].tolist()))
+    champions, weights = arrays["champions"], course.start.shape[1]
+    for each in (arrays["genomes"], arrays["champion"], arrays["rival"], champions):
+        if each.shape[1] != weights or not np.isfinite(each).all():
+            raise ValueError("its genomes are not those of the course")
+    state = attempt_state(arrays, generation, since, arrays["climbed"], told_apart)
     verdict = None
     for first, second, passed, ticks, faults in arrays["verdict"].tolist():
         verdict = Verdict(np.array([first, second]), bool(passed), int(ticks), int(faults))
-    return Segment(state, records, champions, verdict)
+    return Segment(state, tuple(map(_record, arrays["records"].tolist())), tuple(champions), verdict)
 
 
 def _record(numbers: list[float]) -> Record:
-    """The record that these numbers are."""
     attempt, generation, best, mean, reevaluated, verdict, ticks, seconds, faults = numbers
     tried, judged = (None if isnan(value) else value for value in (reevaluated, verdict))
     return Record(int(attempt), int(generation), best, mean, tried, judged, int(ticks), seconds, int(faults))

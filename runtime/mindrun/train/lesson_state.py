@@ -24,7 +24,6 @@ class Course:
 
     @property
     def generations(self) -> int:
-        """How many generations all attempts have together."""
         return self.lesson.generations * self.lesson.learner.attempts
 
 
@@ -81,7 +80,6 @@ class LessonState:
 
     @property
     def kept(self) -> Genomes:
-        """The champion that is kept [0 or 1, weights]."""
         return self.champions[self._best]
 
     @property
@@ -92,14 +90,11 @@ class LessonState:
     @property
     def verdict(self) -> tuple[float, float]:
         """Both scores of the kept one on layouts that its generations never saw; -inf before an attempt has ended."""
-        if not len(self.verdicts):
-            return -inf, -inf
-        first, second = self.verdicts[self._best[0]].tolist()
+        first, second = self.verdicts[self._best[0]].tolist() if len(self.verdicts) else (-inf, -inf)
         return first, second
 
     @property
     def reevaluated(self) -> float:
-        """The score of the kept one on layouts that chose nothing; -inf before an attempt has ended."""
         return self.verdict[1]
 
 
@@ -141,7 +136,6 @@ class Verdict:
 
 
 def begin_attempt(course: Course) -> AttemptState:
-    """The state of an attempt before its first generation."""
     nothing = course.start[:0]
     return AttemptState(
         empty_population(nothing.shape[1]), course.start, nothing, 0, np.full(course.lesson.learner.rungs, -inf), False
@@ -149,7 +143,6 @@ def begin_attempt(course: Course) -> AttemptState:
 
 
 def begin(course: Course) -> LessonState:
-    """The state before the first generation."""
     rungs = np.empty((0, course.lesson.learner.rungs))
     ended = rungs, course.start[:0], np.empty(0, np.int64), np.empty((0, 2)), np.empty(0, np.bool_)
     return LessonState(0, begin_attempt(course), *ended, -inf, 0, 0, 0.0, 0, False)

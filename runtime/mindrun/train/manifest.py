@@ -9,7 +9,6 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from functools import cache
 from hashlib import sha256
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +31,12 @@ COMPUTED_WITH = ("numpy", "numba", "pymunk")
 SOURCES = Path(__file__).parents[1]
 SHOWN_CHARACTERS = 12  # of a hash
 MAX_SEED = 2**63 - 1  # seed
+
+FORMS = {  # of the parts that are texts
+    **dict.fromkeys(("mind", "source", "started", "processor"), str),
+    **dict.fromkeys(("learners", "command"), list),
+    **dict.fromkeys(("weights", "sources", "versions"), dict),
+}
 
 Build = Mapping[str, str]
 
@@ -58,7 +63,6 @@ class Manifest:
 
     @property
     def name(self) -> str:
-        """The lesson's name."""
         return self.lesson.name
 
     @property
@@ -86,7 +90,6 @@ def fingerprint(graph: Graph, lesson: Lesson, procedures: Path | None) -> str:
 
 
 def hashes(weights: Mapping[str, Weights]) -> dict[str, str]:
-    """The SHA-256 of each skill's weights."""
     return {skill: _sha256(np.ascontiguousarray(array, "<f4").tobytes()) for skill, array in sorted(weights.items())}
 
 
@@ -98,7 +101,6 @@ def versions() -> dict[str, str]:
 
 @cache
 def own_build() -> Build:
-    """The build of this process."""
     major, minor, _ = platform.python_version_tuple()
     packages = {package: installed_version(package) or "none" for package in COMPUTED_WITH}
     return {"mindrun": sources_hash(SOURCES), "python": f"{major}.{minor}", **packages}
@@ -133,7 +135,6 @@ def processor() -> str:
 
 
 def to_json(manifest: Manifest) -> bytes:
-    """The manifest as it stands in the run folder."""
     said = {"format": MANIFEST_VERSION, **asdict(manifest), "lesson": encode(manifest.lesson)}
     return json.dumps(said, indent=2).encode() + b"\n"
 
@@ -153,20 +154,19 @@ def _manifest(plain: Any) -> Manifest:
     """The manifest that this data is; ValueError or BundleError where it is none."""
     if not isinstance(plain, dict) or plain.keys() != {"format", *(field.name for field in fields(Manifest))}:
         raise ValueError("it has other parts")
-    lists = [plain[name] for name in ("learners", "command")]
-    tables = [plain[name] for name in ("weights", "sources", "versions")]
-    if not (all(isinstance(each, list) for each in lists) and all(isinstance(each, dict) for each in tables)):
-        raise ValueError("it has parts of another form")
-    texts = [plain["mind"], plain["source"], plain["started"], plain["processor"], *chain(*lists)]
-    texts += [text for table in tables for pair in table.items() for text in pair]
-    is_text = all(isinstance(text, str) and "\0" not in text for text in texts)
-    if not (is_text and is_whole(plain["seed"], high=MAX_SEED)):
-        raise ValueError("it has parts of another kind")
-    lesson = decode_part(Lesson, plain["lesson"], "lesson")
+    given = {name: value for name, value in plain.items() if name != "format"}
+    for name, form in FORMS.items():
+        value = plain[name]
+        texts = [*value, *value.values()] if isinstance(value, dict) else value if form is list else [value]
+        if not isinstance(value, form) or not all(isinstance(text, str) and "\0" not in text for text in texts):
+            raise ValueError("it has parts of another form")
+        given[name] = tuple(value) if form is list else value
+    if not is_whole(plain["seed"], high=MAX_SEED):
+        raise ValueError("it has another seed")
+    given["lesson"] = lesson = decode_part(Lesson, plain["lesson"], "lesson")
     for found in lesson_flaws(lesson):
         raise ValueError(found)
-    given = {name: value for name, value in plain.items() if name != "format"}
-    return Manifest(**given | {"lesson": lesson} | {name: tuple(plain[name]) for name in ("learners", "command")})
+    return Manifest(**given)
 
 
 def _sha256(data: bytes) -> str:

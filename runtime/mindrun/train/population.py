@@ -28,7 +28,6 @@ class Population:
 
 
 def empty_population(weights: int) -> Population:
-    """The empty population before the first generation, for genomes of so many weights."""
     return Population(np.empty((0, weights), np.float32), np.empty(0), 0)
 
 

@@ -61,7 +61,6 @@ class ProgressLog(AppendedFiles):
         super().__init__({folder / LINES: b"".join(map(_line, records)), folder / TABLE: b"".join(table)})
 
     def append(self, record: Record) -> None:
-        """Add the record of a generation to both files."""
         values = asdict(record).items()
         plain = {name: value if value is not None and isfinite(value) else None for name, value in values}
         self._add(_line(plain), _row(plain.values()))

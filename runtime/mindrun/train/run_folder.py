@@ -41,7 +41,6 @@ class RunFolder:
 
     @property
     def begins_with_nothing(self) -> bool:
-        """True if its learners start from scratch, or one of them has no weights yet."""
         learners = self.manifest.learners
         return self.manifest.lesson.from_scratch or any(skill not in self.weights for skill in learners)
 
@@ -141,7 +140,6 @@ def _holder(path: Path) -> str:
 
 
 def keep_weights(folder: Path, genome: Weights) -> None:
-    """Write the best weights so far to the run folder."""
     atomic_write.write(folder / WEIGHTS, to_npy(genome))
 
 

@@ -3,7 +3,7 @@
 All random numbers come from (run seed, attempt, generation, purpose), so that no state of a generator is ever saved.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from math import ceil, inf
@@ -33,7 +33,6 @@ class Purpose(IntEnum):
 
 
 def breeding_generator(seed: int, attempt: int, generation: int) -> np.random.Generator:
-    """The random generator that breeds one generation."""
     return np.random.default_rng(_sequence(seed, attempt, generation, Purpose.BREEDING))
 
 
@@ -58,6 +57,17 @@ class Scorer(Protocol):
 
     def score(self, genomes: Any, seeds: Any, *, ticks: int | None = None) -> RunScores:
         """Every genome on every seed, with `ticks` no longer than so many; a result depends on nothing else."""
+
+
+class WrappedScorer:
+    """A scorer that has another one do something of its own way; what it does not say itself is that one's."""
+
+    def __init__(self, scorer: Any) -> None:
+        self.rollout = scorer
+        self.task: Task = scorer.task
+        self.genome_length: int = scorer.genome_length
+        self.is_one_world = is_one_world(scorer)
+        self.draw: Callable[[int, np.random.Generator], Genomes] = scorer.draw
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,12 +1,12 @@
 """A run from where it stands to its end: generations, their log, a checkpoint every two seconds."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from mindrun.errors import system_errors_as
 from mindrun.train import RunError, checkpoint
 from mindrun.train.attempt import Clock
-from mindrun.train.attempts import Ahead, AttemptExecutor, InThisThread, Step, side_by_side
+from mindrun.train.attempts import Ahead, AttemptExecutor, InThisThread, side_by_side
 from mindrun.train.champion_log import ChampionLog
 from mindrun.train.lesson_state import Course, LessonState, Record, begin, is_reachable
 from mindrun.train.population import Genomes
@@ -40,9 +40,12 @@ def train(run: RunFolder, scorer: Scorer, watch: Watch, executor: AttemptExecuto
     with system_errors_as(RunError, f"cannot write to {run.folder}", NO_ROOM), claim(run.folder):
         now = _standing(run, course, watch)
         with ProgressLog(run.folder, now) as progress, ChampionLog(run.folder, now, watch.warn) as champions:
-            saved = watch.clock()
-            for step in _steps(course, scorer, now, watch, executor):
+            saved, seconds, began = watch.clock(), now.seconds, watch.clock()
+            stretches = executor or InThisThread(course, scorer, watch.clock)
+            for step in side_by_side(course, stretches, now, watch.stop):
                 now = step.state
+                if executor:  # the seconds of several at once are not the sum of their own
+                    now = replace(now, seconds=seconds + watch.clock() - began)
                 watch.count_ahead(step.ahead)
                 for record, champion in zip(step.records, step.champions, strict=True):
                     progress.append(record)
@@ -62,17 +65,6 @@ def train(run: RunFolder, scorer: Scorer, watch: Watch, executor: AttemptExecuto
 def best(state: LessonState) -> Genomes:
     """The best weights so far [0 or 1, weights]: of the attempts that have ended, else of this one."""
     return state.kept if len(state.kept) else state.now.champion
-
-
-def _steps(
-    course: Course, scorer: Scorer, state: LessonState, watch: Watch, executor: AttemptExecutor | None
-) -> Iterator[Step]:
-    began = watch.clock()
-    steps = side_by_side(course, executor or InThisThread(course, scorer, watch.clock), state, watch.stop)
-    for step in steps:
-        # Those of several at once are not the sum of their own.
-        seconds = state.seconds + watch.clock() - began if executor else step.state.seconds
-        yield replace(step, state=replace(step.state, seconds=seconds))
 
 
 def _standing(run: RunFolder, course: Course, watch: Watch) -> LessonState:
