@@ -151,27 +151,27 @@ def _asked(case: Case) -> None:
 def _acted(case: Case) -> None:
     """What an editor can do about all that is found, and at the master."""
     session = case.session()
-    workspace, lsp = session.workspace, session.lsp
+    workspace = session.workspace
     view = workspace.view(case.path)
     for _, fix in mendings(view, case.path, 0, len(case.text)):
-        lsp.workspace_edit(fix.splices, {}, plain=True)
+        session.workspace_edit(fix.splices)
     all_mended(view, case.path, workspace.texts)
     if case.compiled.graph:
         at = max(case.text.find("skill Go"), 0)
         proposals(Selection(open_project(case.compiled), case.path, at, at))
         with suppress(EditError):
             outcome = perform(workspace, case.path, "rename", {"old": "eye", "new": "other", "noun": "sensor"})
-            lsp.workspace_edit(outcome.change.splices, {}, plain=True)
+            session.workspace_edit(outcome.change.splices)
 
 
 def _outlined(case: Case) -> None:
     session = case.session()
     if file := session.workspace.view(case.path).file(case.path):
         for symbol in symbols(file):
-            session.lsp.range(symbol.whole)
+            session.range(symbol.whole)
     matching_symbols(session.workspace, [case.path.parent], "g")
     for splice in format_splices(Source("mind.mind", case.text, case.path.parent)):
-        session.lsp.text_edit(splice)
+        session.text_edit(splice)
 
 
 COMMANDS: Mapping[str, Callable[[Case], None]] = {

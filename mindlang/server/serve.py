@@ -55,8 +55,11 @@ def _is_fault(record: logging.LogRecord) -> bool:
 
 
 def begin(ls: MindServer, params: types.InitializeParams) -> None:
-    """Count columns as the editor does."""
-    ls.session.lsp.codec = ls.workspace.position_codec
+    """Count columns as the editor does, and make only edits that it takes: not all can make files and name versions."""
+    workspace = params.capabilities.workspace
+    edits = workspace.workspace_edit if workspace else None
+    makes_files = edits and types.ResourceOperationKind.Create in (edits.resource_operations or ())
+    ls.session.codec, ls.session.plain = ls.workspace.position_codec, not (makes_files and edits.document_changes)
 
 
 async def watch(ls: MindServer, params: types.InitializedParams) -> None:
@@ -88,7 +91,7 @@ def changed(ls: MindServer, params: types.DidChangeTextDocumentParams) -> None:
 
 def saved(ls: MindServer, params: types.DidSaveTextDocumentParams) -> None:
     """A file has been saved: the locks of an edit may follow now."""
-    for message in ls.session.saved(ls.session.lsp.path(params.text_document.uri)):
+    for message in ls.session.saved(ls.session.path(params.text_document.uri)):
         ls.say(message)
     ls.check_soon()
 
@@ -112,7 +115,7 @@ def shut_down(ls: MindServer, params: None) -> None:
 
 def prepared(ls: MindServer, params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder | None:
     """The name at a place and its range, None where none is; refused where the mind does not compile."""
-    view, path, offset = ls.session.place(params.text_document.uri, params.position)
+    view, path, offset = ls.session.place(params)
     mention = view.mention_at(path, offset)
     if mention is None:
         return None
@@ -120,7 +123,7 @@ def prepared(ls: MindServer, params: types.PrepareRenameParams) -> types.Prepare
         project(ls.session.workspace, view)
     except EditError as error:
         raise failed(error) from error
-    return types.PrepareRenamePlaceholder(ls.session.lsp.range(mention.name.span), _name_of(mention))
+    return types.PrepareRenamePlaceholder(ls.session.range(mention.name.span), _name_of(mention))
 
 
 def _name_of(mention: Mention) -> str:
@@ -130,7 +133,7 @@ def _name_of(mention: Mention) -> str:
 
 def renamed(ls: MindServer, params: types.RenameParams) -> types.WorkspaceEdit | None:
     """Rename something wherever it is named, in neighbours too."""
-    view, path, offset = ls.session.place(params.text_document.uri, params.position)
+    view, path, offset = ls.session.place(params)
     mention = view.mention_at(path, offset)
     if mention is None or params.new_name == mention.name.text:
         return None
@@ -145,15 +148,15 @@ def renamed(ls: MindServer, params: types.RenameParams) -> types.WorkspaceEdit |
 
 def acted(ls: MindServer, params: types.CodeActionParams) -> list[types.CodeAction]:
     """The quick fixes and the edits at a selection."""
-    view, path, start = ls.session.place(params.text_document.uri, params.range.start)
-    end = ls.session.lsp.offset(ls.session.workspace.text(path), params.range.end)
+    view, path = ls.session.asked(params)
+    source = ls.session.source(path)
+    start, end = (ls.session.offset(source.text, place) for place in (params.range.start, params.range.end))
     wanted = params.context.only
     actions: list[types.CodeAction] = []
     if _wants(wanted, "quickfix"):
         actions += [_mending(ls, *each) for each in mendings(view, path, start, end)]
     if _wants(wanted, FIX_ALL) and (text := all_mended(view, path, ls.session.workspace.texts)) is not None:
-        source = Source(str(path), ls.session.workspace.text(path), path.parent)
-        edit = ls.workspace_edit((Splice(source, 0, len(source.text), text),))
+        edit = ls.session.workspace_edit((Splice(source, 0, len(source.text), text),))
         actions.append(types.CodeAction("Make all safe fixes", kind=FIX_ALL, edit=edit))
     if _wants(wanted, "refactor") and view.compiled.graph:
         selection = Selection(project(ls.session.workspace, view), path, start, end)
@@ -174,9 +177,9 @@ def _mending(ls: MindServer, found: Diagnostic, fix: Fix) -> types.CodeAction:
     return types.CodeAction(
         fix.title,
         kind="quickfix",
-        diagnostics=[ls.session.lsp.diagnostic(found)],
+        diagnostics=[ls.session.diagnostic(found)],
         is_preferred=fix.is_safe,
-        edit=ls.workspace_edit(fix.splices),
+        edit=ls.session.workspace_edit(fix.splices),
     )
 
 
@@ -186,7 +189,7 @@ async def edited(ls: MindServer, *arguments: Any) -> types.Location | None:
     The answer is where that name stands, so that the editor can let the user rename it.
     """
     uri, name, said, fresh = (*arguments, "", "", {}, "")[: max(4, len(arguments))][:4]
-    path = ls.session.lsp.path(str(uri))
+    path = ls.session.path(str(uri))
     try:
         outcome, edit = ls.outcome(path, str(name), said if isinstance(said, dict) else {})
     except MindError as error:
@@ -207,7 +210,7 @@ def _place_of(ls: MindServer, outcome: EditOutcome, fresh: str) -> types.Locatio
         text = spliced(source, outcome.change.splices)
         at = text.find(f" {fresh} ") + 1 if fresh else 0
         if at:
-            return ls.session.lsp.location(Span(Source(source.name, text, source.folder), at, at + len(fresh)))
+            return ls.session.location(Span(Source(source.name, text, source.folder), at, at + len(fresh)))
     return None
 
 

@@ -35,7 +35,7 @@ class Editor:
 
     def __init__(self, folder: Path, capabilities: dict[str, Any] = CAPABILITIES) -> None:
         questions, answers = os.pipe(), os.pipe()
-        self.output, self.input = open(questions[1], "wb"), open(answers[0], "rb")
+        self.output, self.input = os.fdopen(questions[1], "wb"), os.fdopen(answers[0], "rb")
         self.code: int | None = None
         self.server = self._begin(lambda: self._serve(questions[0], answers[1]))
         self.inbox: Queue[dict[str, Any]] = Queue()
@@ -58,7 +58,7 @@ class Editor:
         return thread
 
     def _serve(self, questions: int, answers: int) -> None:
-        with open(questions, "rb") as read, open(answers, "wb") as written:
+        with os.fdopen(questions, "rb") as read, os.fdopen(answers, "wb") as written:
             self.code = serve(read, written)
 
     # Messages.
