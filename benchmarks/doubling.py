@@ -37,7 +37,7 @@ from mindlang.proofs.proof import prove
 from mindlang.server.changing import perform
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
-from mindlang.server.navigating import definitions, highlights, matching_symbols, references, symbols
+from mindlang.server.navigating import definitions, highlights, matching_declarations, references
 from mindlang.server.proposals import Selection, all_mended, mendings, proposals
 from mindlang.server.server import EditorSession
 
@@ -167,9 +167,9 @@ def _acted(case: Case) -> None:
 def _outlined(case: Case) -> None:
     session = case.session()
     if file := session.workspace.view(case.path).file(case.path):
-        for symbol in symbols(file):
-            session.range(symbol.whole)
-    matching_symbols(session.workspace, [case.path.parent], "g")
+        for declaration in file.declarations:
+            session.range(declaration.header.span)
+    matching_declarations(session.workspace, [case.path.parent], "g")
     for splice in format_splices(Source("mind.mind", case.text, case.path.parent)):
         session.text_edit(splice)
 

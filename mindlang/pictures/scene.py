@@ -60,7 +60,6 @@ def _grid(first: float, last: float) -> Floats:
 
 
 def half_sides(scene: SceneKind) -> tuple[float, float]:
-    """How far its walls are from its middle, along x and y."""
     width, depth = scene.sides
     return width / 2, depth / 2
 
@@ -153,7 +152,6 @@ def _named(
 
 
 def _places(below: Region, text: SceneLabel, gap: float) -> Iterator[Region]:
-    """The places for a name: below its thing, above, to the right or left of it, and then line by line farther."""
     above = below._replace(low=text.y + text.size / 2 + gap)
     yield from (below, above)
     level = below._replace(low=text.y - below.height / 2)

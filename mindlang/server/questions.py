@@ -8,10 +8,10 @@ from lsprotocol import types
 
 from mindlang.compiler.format import format_splices
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Master, Teaches
+from mindlang.compiler.syntax import Contains, Declaration, Master, Teaches, of_form
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
-from mindlang.server.navigating import Symbol, definitions, highlights, matching_symbols, references, symbols
+from mindlang.server.navigating import definitions, highlights, matching_declarations, references
 from mindlang.server.server import EditorSession, MindServer
 from mindlang.server.workspace import MindView, are_breakpoints
 
@@ -46,7 +46,6 @@ LOOKING_COMMANDS = {"Run": "run", "Bench": "bench", "View": "view"}  # a word ab
 
 
 def hovered(ls: MindServer, params: types.HoverParams) -> types.Hover | None:
-    """The explanation of what is under the mouse."""
     found = hover(*ls.session.place(params))
     if found is None:
         return None
@@ -55,7 +54,6 @@ def hovered(ls: MindServer, params: types.HoverParams) -> types.Hover | None:
 
 
 def completed(ls: MindServer, params: types.CompletionParams) -> types.CompletionList:
-    """The completions at the cursor."""
     view, path, offset = ls.session.place(params)
     source = ls.session.source(path)
     found = complete(view, path, source.text, offset)
@@ -88,56 +86,68 @@ def asked_above(ls: MindServer, params: types.CodeLensParams) -> list[types.Code
 
 
 def defined(ls: MindServer, params: types.DefinitionParams) -> list[types.Location]:
-    """The declaration of the name under the cursor."""
     spans = definitions(*ls.session.place(params))
     return [ls.session.location(span) for span in spans]
 
 
 def referred(ls: MindServer, params: types.ReferenceParams) -> list[types.Location]:
-    """Every place where the name under the cursor stands."""
     place = ls.session.place(params)
     spans = references(ls.session.workspace, *place, with_declaration=params.context.include_declaration)
     return [ls.session.location(span) for span in spans]
 
 
 def highlighted(ls: MindServer, params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
-    """Every place in this file where the name under the cursor stands."""
     spans = highlights(*ls.session.place(params))
     return [types.DocumentHighlight(ls.session.range(span)) for span in spans]
 
 
 def outlined(ls: MindServer, params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
-    """The outline of a file."""
     view, path = ls.session.asked(params)
     file = view.file(path)
-    return [_symbol(ls.session, symbol) for symbol in symbols(file)] if file else []
+    return [_outline(ls.session, each) for each in file.declarations] if file else []
 
 
-def _symbol(session: EditorSession, symbol: Symbol) -> types.DocumentSymbol:
+def _outline(session: EditorSession, declaration: Declaration) -> types.DocumentSymbol:
+    """A declaration from its header to the end of its last line, with the things that it contains."""
+    header = declaration.header
+    end = max(each.span.end for each in (header, *declaration.facts))
+    things = [
+        types.DocumentSymbol(
+            fact.name.text,
+            SORTS["thing"][0],
+            session.range(fact.span),
+            session.range(fact.name.span),
+            detail=f"thing {fact.phrase.kind.text}",
+            children=[],
+        )
+        for fact in of_form(declaration.facts, Contains)
+    ]
+    kind = header.phrase.kind.text if header.phrase else f"like {header.like.text}" if header.like else ""
     return types.DocumentSymbol(
-        symbol.name,
-        SORTS[symbol.noun][0],
-        session.range(symbol.whole),
-        session.range(symbol.place),
-        detail=f"{symbol.noun} {symbol.kind}".strip(),
-        children=[_symbol(session, inner) for inner in symbol.inner],
+        header.name.text,
+        SORTS[header.noun.text][0],
+        session.range(Span(header.span.source, header.span.start, end)),
+        session.range(header.name.span),
+        detail=f"{header.noun.text} {kind}".strip(),
+        children=things,
     )
 
 
 def searched(ls: MindServer, params: types.WorkspaceSymbolParams) -> list[types.WorkspaceSymbol]:
-    """The declarations of all files whose names match a query."""
     roots = [*ls.workspace.folders] or [*filter(None, [ls.workspace.root_uri])]
-    folders = map(ls.session.path, roots)
+    found = matching_declarations(ls.session.workspace, map(ls.session.path, roots), params.query)
     return [
         types.WorkspaceSymbol(
-            ls.session.location(symbol.place), symbol.name, SORTS[symbol.noun][0], container_name=symbol.noun
+            ls.session.location(header.name.span),
+            header.name.text,
+            SORTS[header.noun.text][0],
+            container_name=header.noun.text,
         )
-        for symbol in matching_symbols(ls.session.workspace, folders, params.query)
+        for header in (each.header for each in found)
     ]
 
 
 def formatted(ls: MindServer, params: types.DocumentFormattingParams) -> list[types.TextEdit]:
-    """The file as it should be written."""
     path = ls.session.path(params.text_document.uri)
     splices = format_splices(ls.session.source(path), "stop" if are_breakpoints(path) else "line")
     return [ls.session.text_edit(splice) for splice in splices]
@@ -167,9 +177,7 @@ def lenses(view: MindView, path: Path) -> list[Lens]:
             if view.names.of("curriculum"):
                 found.append(Lens(setting.span, DUE_TITLE, ("train", view.main.name)))
             found += _looks(view, setting.span)
-    lessons = [
-        fact for each in view.files for of in each.declarations for fact in of.facts if isinstance(fact, Teaches)
-    ]
+    lessons = [each for file in view.files for of in file.declarations for each in of_form(of.facts, Teaches)]
     for header in (declaration.header for declaration in file.declarations):
         name = header.name.text
         match header.noun.text:

@@ -31,7 +31,6 @@ KINDS = ("quickfix", "refactor", "refactor.rewrite", "refactor.extract", "refact
 
 
 def make() -> MindServer:
-    """A server that answers."""
     server = MindServer()
     for feature, answer, *options in (*TOLD, *CHANGES, *QUESTIONS):
         server.feature(feature, *options)(answer)
@@ -147,7 +146,6 @@ def renamed(ls: MindServer, params: types.RenameParams) -> types.WorkspaceEdit |
 
 
 def acted(ls: MindServer, params: types.CodeActionParams) -> list[types.CodeAction]:
-    """The quick fixes and the edits at a selection."""
     view, path = ls.session.asked(params)
     source = ls.session.source(path)
     start, end = (ls.session.offset(source.text, place) for place in (params.range.start, params.range.end))

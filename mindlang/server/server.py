@@ -76,7 +76,6 @@ class EditorSession:
         return Path(name).resolve() if name else Path("/", ".untitled", quote(uri, safe=""))
 
     def uri(self, path: Path) -> str:
-        """The URI of a file."""
         return self.uris.get(path) or from_fs_path(str(path)) or ""
 
     def source(self, path: Path) -> Source:
@@ -103,18 +102,15 @@ class EditorSession:
         return bisect_left(units, units[start] + position.character, start, start + length)
 
     def position(self, text: str, offset: int) -> types.Position:
-        """The position of an offset."""
         starts, units = line_starts(text), units_before(text, self.codec)
         line = bisect_right(starts, offset) - 1
         return types.Position(line, units[offset] - units[starts[line]])
 
     def range(self, span: Span | Splice) -> types.Range:
-        """A span as a range."""
         text = span.source.text
         return types.Range(self.position(text, span.start), self.position(text, span.end))
 
     def location(self, span: Span) -> types.Location:
-        """A span with its file."""
         return types.Location(self.uri(span.source.path), self.range(span))
 
     def diagnostic(self, found: Diagnostic) -> types.Diagnostic:
@@ -132,7 +128,6 @@ class EditorSession:
         )
 
     def text_edit(self, splice: Splice) -> types.TextEdit:
-        """A splice of one file."""
         return types.TextEdit(self.range(splice), splice.text)
 
     def workspace_edit(
@@ -153,12 +148,10 @@ class EditorSession:
         return types.WorkspaceEdit(document_changes=changes)
 
     def set(self, uri: str, version: int, text: str) -> None:
-        """Set the text that a file has now."""
         path = self.path(uri)
         self.uris[path], self.versions[path], self.workspace.texts[path] = uri, version, text
 
     def close(self, uri: str) -> None:
-        """A file is no longer open."""
         path = self.path(uri)
         self.workspace.close(path)
         self.versions.pop(path, None)
@@ -228,14 +221,12 @@ class MindServer(LanguageServer):
         self._due = asyncio.get_running_loop().call_later(TYPING_PAUSE_SECONDS, self.check)
 
     def check(self) -> None:
-        """Say what is new about the open files."""
         if self._due:
             self._due.cancel()
         for news in self.session.news():
             self.text_document_publish_diagnostics(news)
 
     def say(self, message: str, type_: types.MessageType = types.MessageType.Info) -> None:
-        """Show the user a message."""
         self.window_show_message(types.ShowMessageParams(type_, message))
 
     def outcome(self, path: Path, name: str, arguments: dict[str, Any]) -> tuple[EditOutcome, types.WorkspaceEdit]:

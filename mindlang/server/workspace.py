@@ -27,7 +27,6 @@ Texts = Mapping[Path, str]
 
 
 def are_breakpoints(path: Path) -> bool:
-    """True if a file of this name has breakpoints, and no mind."""
     return path.suffix == SUFFIX
 
 
@@ -42,11 +41,9 @@ class MindView:
 
     @property
     def paths(self) -> list[Path]:
-        """The paths of the files."""
         return [file.source.path for file in self.files]
 
     def file(self, path: Path) -> File | None:
-        """The file at a path, if it is one of these."""
         return next((file for file in self.files if file.source.path == path), None)
 
     @cached_property
@@ -87,7 +84,6 @@ class MindView:
 
 
 def view(main: Path, texts: Texts) -> MindView:
-    """The mind whose main file stands at a path; files in `texts` are taken from there."""
     compiled = load(main, texts)
     if compiled.mind:
         found = compiled.mind.files
@@ -112,16 +108,13 @@ class Workspace:
         self._mains.clear()
 
     def close(self, path: Path) -> None:
-        """A file is no longer open: it is what lies on the disk."""
         self.texts.pop(path, None)
         self.forget()
 
     def view(self, path: Path) -> MindView:
-        """The mind to which a file belongs."""
         return self.mind(self.main_of(path))
 
     def mind(self, main: Path) -> MindView:
-        """The mind whose main file this is."""
         known = self._views.get(main)
         if known is None or not self._is_now(*known):
             made = view(main, self.texts)

@@ -105,7 +105,6 @@ def _hierarchy(graph: Graph, master: str, skills: Sequence[Skill], columns: Colu
 
 
 def _promises(skills: Sequence[Skill], columns: Columns) -> dict[str, list[Data]]:
-    """What each skill promises: its text, and the columns of its verdict and of how often it was held or broken."""
     promises = [(skill.name, promise) for skill in skills for promise in skill.promises]
     found: dict[str, list[Data]] = {}
     for number, (skill, promise) in enumerate(promises):
@@ -228,7 +227,6 @@ def world_event_data(task: Task) -> list[dict[str, str]]:
 
 
 def robot_event_data(of: About) -> list[dict[str, str]]:
-    """The texts and kinds of what happens to a robot."""
     return [
         {"text": "stopped", "kind": "stopped"},
         {"text": "began anew", "kind": "begin"},

@@ -43,14 +43,12 @@ class ViewSession:
             self._run(0, sys.maxsize)
 
     def show(self, viewed: Viewed) -> None:
-        """Let all viewers see another run, in the loop that is running."""
         self._show(viewed)
         self.number += 1
         self.begin()
         self.changed()
 
     def _show(self, viewed: Viewed) -> None:
-        """Show a run, and nothing of those before it."""
         for growing in self._growing.values():
             growing.cancel()
         self._growing = {}
@@ -123,7 +121,6 @@ class ViewSession:
         return await asyncio.get_running_loop().run_in_executor(self._answerer, _computed, viewed, message)
 
     async def _play(self, asked: messages.PlayChampion) -> None:
-        """Show the champion of another generation."""
         if self.learning is None or asked.run >= len(self.learning.runs):
             raise RefusedError(f"there is no training {asked.run}")
         seed = None if asked.seed is None else int(asked.seed)

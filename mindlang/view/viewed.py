@@ -79,12 +79,10 @@ class Viewed:
 
     @property
     def known(self) -> int:
-        """The last tick that can be asked for."""
         return self.blocks.rows - 1
 
     @property
     def kept_bytes(self) -> int:
-        """The bytes of its rows, and of what flowed in them."""
         return self.blocks.kept_bytes + self.flows.kept_bytes
 
     def grow(self, bytes_elsewhere: int = 0) -> None:
@@ -130,7 +128,6 @@ class Viewed:
         return columns_frame(asked, values)
 
     def doubles(self, ticks: TickNumbers) -> Doubles:
-        """The doubles [ticks, columns]."""
         return self.blocks.kept(DOUBLE_BLOCK, ticks)
 
     def singles(self, ticks: TickNumbers) -> Singles:
@@ -158,5 +155,4 @@ class Viewed:
 
     @property
     def _computed_rows(self) -> int:
-        """The number of rows whose flows are computed at once."""
         return max(1, MAX_COMPUTED_EDGES // max(1, len(self.flows.links)))

@@ -152,7 +152,6 @@ def _beginning(columns: Columns, of: About) -> tuple[Doubles, Singles]:
 
 
 def _blocks(rows: Rows, columns: Columns, found: Mapping[str, NDArray[Any]]) -> tuple[Doubles, Singles]:
-    """Both blocks [ticks, columns] of rows, of which some groups were found beside them; `flow` is not kept."""
     doubles = np.empty((len(rows), columns.width(DOUBLE_BLOCK)))
     singles = np.empty((len(rows), columns.kept_singles), np.float32)  # bits of readings stay what they are
     for name, group in columns.items():

@@ -14,9 +14,18 @@ from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Region, text_width
 from mindlang.pictures.film import Film
 from mindlang.pictures.film_images import BELOW_SHARE, BESIDE_SHARE, FILM_HEIGHT, FILM_WIDTH, FilmLayout
-from mindlang.pictures.hierarchy_panel import MAX_TEXT_PIXELS, Place, box_text_size, broken, laid_out
+from mindlang.pictures.panels import (
+    MAX_TEXT_PIXELS,
+    READING_PIXELS,
+    Place,
+    box_text_size,
+    broken,
+    cell_layout,
+    fit_name,
+    laid_out,
+    sensors_read,
+)
 from mindlang.pictures.path import ending_words
-from mindlang.pictures.readings_panel import TEXT_PIXELS, cell_layout, fit_name, sensors_read
 from mindlang.pictures.scene import WALL_UNITS
 from mindlang.pictures.theme import NIGHT
 from mindlang.run.edge_flow import Link, edge_flows
@@ -232,7 +241,7 @@ def test_as_many_readings_as_fit(rules: Path, ratio: float, count: int) -> None:
 
 
 def test_a_long_name_of_a_sensor_is_cut() -> None:
-    assert fit_name("eye", 80.0) == ("eye", TEXT_PIXELS)
+    assert fit_name("eye", 80.0) == ("eye", READING_PIXELS)
     text, size = fit_name("a_name_that_nobody_should_give_to_a_sensor", 80.0)
     assert text.startswith("a_name_")
     assert text.endswith("..")
