@@ -154,14 +154,14 @@ def _acted(case: Case) -> None:
     workspace = session.workspace
     view = workspace.view(case.path)
     for _, fix in mendings(view, case.path, 0, len(case.text)):
-        session.workspace_edit(fix.splices)
+        session.workspace_edit(fix.splices, {})
     all_mended(view, case.path, workspace.texts)
     if case.compiled.graph:
         at = max(case.text.find("skill Go"), 0)
         proposals(Selection(open_project(case.compiled), case.path, at, at))
         with suppress(EditError):
             outcome = perform(workspace, case.path, "rename", {"old": "eye", "new": "other", "noun": "sensor"})
-            session.workspace_edit(outcome.change.splices)
+            session.workspace_edit(outcome.change.splices, {})
 
 
 def _outlined(case: Case) -> None:

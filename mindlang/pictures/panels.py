@@ -41,7 +41,12 @@ class HierarchyPanel:
         sources = procedure_sources(run.graph, run.setup.folder, run.setup.master)
         self._flows = edge_flows(run.setup.ready.policy, sources, run.setup.master, run)
         self._boxes, self._stops = laid_out(self._flows.links, self._flows.skills, room)
-        self._lines = {sink: self._lines_of(sink, place) for sink, place in self._boxes.items()}
+        # A skill's number stands below its name, any other's behind it.
+        names = {sink: run.graph.named(*sink) for sink in self._boxes}
+        self._lines = {
+            sink: broken(names[sink], 0.84 * place.width) if sink[0] == "skill" else [f"{names[sink]}  0.00"]
+            for sink, place in self._boxes.items()
+        }
         self._size = min(box_text_size(self._lines[sink], place) for sink, place in self._boxes.items())
 
     def draw(self, canvas: Canvas, tick: int) -> None:
@@ -96,11 +101,6 @@ class HierarchyPanel:
         outline = np.reshape(around, (-1, 2))
         canvas.polygon(outline, fill)
         canvas.line(outline, rim, 2.0, closed=True)
-
-    def _lines_of(self, sink: Sink, place: "Place") -> list[str]:
-        """The lines of text in a box: a skill's number stands below its name, any other's behind it."""
-        name = self._run.graph.named(*sink)
-        return broken(name, 0.84 * place.width) if sink[0] == "skill" else [f"{name}  0.00"]
 
 
 def broken(name: str, room: float) -> list[str]:

@@ -32,6 +32,7 @@ from mindlang.run.recorded_run import RecordedRun
 
 PICTURE_PIXELS = 1000
 TOP_PIXELS, BOTTOM_PIXELS, SIDE_PIXELS = 96, 74, 28  # what stands around the world
+TITLE_LINE_PIXELS = 34
 SCALE_BAR_PIXELS = 170  # beside the legend
 SCALE_FACTOR = 2  # drawn so many times larger, then averaged
 PLAIN_MARGIN_UNITS = 6.0  # around a plain scene
@@ -58,10 +59,10 @@ def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
     draw_robot(world, run, PAPER, run.ticks)
     draw_collisions(world, run)
     scene.draw_names(world, run, PAPER, run.ticks, end_label(world, run, found))
-    height, right = height_of(run), PICTURE_PIXELS - SIDE_PIXELS
+    height = height_of(run)
     page = page_around(world, height)
-    draw_title(page, run, found, SIDE_PIXELS, 34, right)
-    draw_legend(page, run, found, path, SIDE_PIXELS, height - 46, right - SCALE_BAR_PIXELS)
+    draw_title(page, run, found)
+    draw_legend(page, run, found, path, height - 46)
     return reduced(page.image, 1 / SCALE_FACTOR)
 
 
@@ -120,9 +121,10 @@ def png(image: Image) -> bytes:
     return bytes(data)
 
 
-def draw_title(canvas: Canvas, run: RecordedRun, found: dict[str, Any], x: float, y: float, right: float) -> None:
-    """Draw the task, and the facts of the run side by side up to `right`, each below its name."""
-    canvas.text(x, y, run.task.name, 24, PAPER.ink, bold=True)
+def draw_title(canvas: Canvas, run: RecordedRun, found: dict[str, Any]) -> None:
+    """Draw the task, and the facts of the run side by side, each below its name."""
+    x = float(SIDE_PIXELS)
+    canvas.text(x, TITLE_LINE_PIXELS, run.task.name, 24, PAPER.ink, bold=True)
     facts = [
         *(("in charge", found["master"]), ("seed", str(found["seed"]))),
         *((name, f"{number:.6g}") for name, number in run.drawn.items()),
@@ -133,23 +135,22 @@ def draw_title(canvas: Canvas, run: RecordedRun, found: dict[str, Any], x: float
     ]
     gap = 1.6 * ENTRY_GAP_PIXELS
     wide = [max(canvas.width(name, SMALL_PIXELS), canvas.width(value, LARGE_PIXELS)) + gap for name, value in facts]
-    fit = min(1.0, (right - x) / (sum(wide) - gap))  # smaller, where much is counted
+    fit = min(1.0, (PICTURE_PIXELS - 2 * SIDE_PIXELS) / (sum(wide) - gap))  # smaller, where much is counted
     for (name, value), width in zip(facts, wide, strict=True):
-        canvas.text(x, y + 25, name, fit * SMALL_PIXELS, PAPER.faint)
-        canvas.text(x, y + 46, value, fit * LARGE_PIXELS, PAPER.ink)
+        canvas.text(x, TITLE_LINE_PIXELS + 25, name, fit * SMALL_PIXELS, PAPER.faint)
+        canvas.text(x, TITLE_LINE_PIXELS + 46, value, fit * LARGE_PIXELS, PAPER.ink)
         x += fit * width
 
 
-def draw_legend(
-    canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path, x: float, y: float, right: float
-) -> None:
-    """Draw the legend of colours and marks, in lines that end before `right`, smaller where they are many."""
+def draw_legend(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path, y: float) -> None:
+    """Draw the legend of colours and marks, in lines that end before the scale, smaller where they are many."""
     entries = _entries(canvas, run, found, path)
-    size, places = legend_layout(canvas, [name for _, name in entries], right - x)
+    room = PICTURE_PIXELS - 2 * SIDE_PIXELS - SCALE_BAR_PIXELS
+    size, places = legend_layout(canvas, [name for _, name in entries], room)
     for (draw, name), (along, line) in zip(entries, places, strict=True):
         low = y + LEGEND_LINE_PIXELS * line
-        draw(x + along, low - 4)
-        canvas.text(x + along + LEGEND_MARK_PIXELS, low, name, size, PAPER.ink)
+        draw(SIDE_PIXELS + along, low - 4)
+        canvas.text(SIDE_PIXELS + along + LEGEND_MARK_PIXELS, low, name, size, PAPER.ink)
 
 
 def legend_layout(canvas: Canvas, names: Sequence[str], room: float) -> tuple[float, list[tuple[float, int]]]:

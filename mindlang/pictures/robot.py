@@ -1,6 +1,7 @@
 """The robot of a run: its body, what moves it, and what its sensors look at; what is seen is lit."""
 
 from collections.abc import Iterator
+from operator import itemgetter
 
 import numpy as np
 from mindrun.graph.named_readings import servo_reading
@@ -144,7 +145,7 @@ def _touches(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
         for at, reading in zip(kind.directions, readings, strict=True)
         if not np.isnan(reading)
     ]
-    for reading, points in sorted(shown, key=lambda switch: switch[0]):
+    for reading, points in sorted(shown, key=itemgetter(0)):
         line = to_world(points, run.body[tick])
         canvas.line(line, theme.floor, SECTOR_PIXELS + 1.5)
         canvas.line(line, theme.crash if reading > 0.5 else theme.faint, SECTOR_PIXELS)

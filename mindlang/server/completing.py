@@ -45,7 +45,7 @@ from mindlang.server.offers import (
     varying_parts,
     words,
 )
-from mindlang.server.places import SaidArgument, declaration_at, noun_of_kind, on_line, path_to, said_argument
+from mindlang.server.places import declaration_at, noun_of_kind, on_line, path_to, said_argument
 from mindlang.server.workspace import MindView, are_breakpoints
 
 MAX_OFFERED_FILES = 200  # that are offered
@@ -231,16 +231,13 @@ def _range_words(line: CursorLine, last: Sequence[Any], end: int) -> Iterator[Of
         match said.argument.value:
             case syntax.Numbers((_,)):
                 yield Offer("to", "word")
-            case syntax.Range(by=None) if said.meaning.shape == "list" or _has_schedule(said):
-                yield Offer("by", "word")
+            case syntax.Range(by=None):
+                # The size of what moves when it is reached may be a schedule, `3 to 1 by 0.1`.
+                keys = {each.key for each in named_arguments(kinds(said.noun)[said.kind])}
+                if said.meaning.shape == "list" or (said.argument.key.text == "size" and "reached" in keys):
+                    yield Offer("by", "word")
     if said and said.noun == "sensor" and said.argument.span.end == end:
         yield from words("or") if said.meaning and said.meaning.type == Reference("thing") else ()
-
-
-def _has_schedule(said: SaidArgument) -> bool:
-    """Tell whether an argument may be a schedule, `3 to 1 by 0.1`: the size of what moves when it is reached."""
-    takes = named_arguments(kinds(said.noun)[said.kind])
-    return said.argument.key.text == "size" and any(each.key == "reached" for each in takes)
 
 
 def _kinds(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:

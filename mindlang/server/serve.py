@@ -12,7 +12,6 @@ from lsprotocol import types
 from mindrun.errors import MindError
 from pygls.exceptions import JsonRpcException
 
-from mindlang.compiler.diagnostic import Diagnostic, Fix
 from mindlang.compiler.families import is_of_family
 from mindlang.compiler.references import Mention
 from mindlang.compiler.source import Source, Span
@@ -32,7 +31,7 @@ KINDS = ("quickfix", "refactor", "refactor.rewrite", "refactor.extract", "refact
 
 def make() -> MindServer:
     server = MindServer()
-    for feature, answer, *options in (*TOLD, *CHANGES, *QUESTIONS):
+    for feature, answer, *options in (*CHANGES, *QUESTIONS):
         server.feature(feature, *options)(answer)
     server.command(EDIT)(edited)
     server.command(EDITS)(catalog)
@@ -57,8 +56,9 @@ def begin(ls: MindServer, params: types.InitializeParams) -> None:
     """Count columns as the editor does, and make only edits that it takes: not all can make files and name versions."""
     workspace = params.capabilities.workspace
     edits = workspace.workspace_edit if workspace else None
-    makes_files = edits and types.ResourceOperationKind.Create in (edits.resource_operations or ())
-    ls.session.codec, ls.session.plain = ls.workspace.position_codec, not (makes_files and edits.document_changes)
+    operations = edits.resource_operations or () if edits and edits.document_changes else ()
+    ls.session.codec = ls.workspace.position_codec
+    ls.session.plain = types.ResourceOperationKind.Create not in operations
 
 
 async def watch(ls: MindServer, params: types.InitializedParams) -> None:
@@ -152,9 +152,11 @@ def acted(ls: MindServer, params: types.CodeActionParams) -> list[types.CodeActi
     wanted = params.context.only
     actions: list[types.CodeAction] = []
     if _wants(wanted, "quickfix"):
-        actions += [_mending(ls, *each) for each in mendings(view, path, start, end)]
+        for found, fix in mendings(view, path, start, end):
+            edit, about = ls.session.workspace_edit(fix.splices, {}), [ls.session.diagnostic(found)]
+            actions.append(types.CodeAction(fix.title, "quickfix", about, is_preferred=fix.is_safe, edit=edit))
     if _wants(wanted, FIX_ALL) and (text := all_mended(view, path, ls.session.workspace.texts)) is not None:
-        edit = ls.session.workspace_edit((Splice(source, 0, len(source.text), text),))
+        edit = ls.session.workspace_edit((Splice(source, 0, len(source.text), text),), {})
         actions.append(types.CodeAction("Make all safe fixes", kind=FIX_ALL, edit=edit))
     if _wants(wanted, "refactor") and view.compiled.graph:
         selection = Selection(project(ls.session.workspace, view), path, start, end)
@@ -169,16 +171,6 @@ def _wants(only: Any, kind: str) -> bool:
     """True if `only` asks for actions of a kind, of one above or of one below it; True without `only`."""
     asked = [str(getattr(each, "value", each)) for each in only or ()]
     return not asked or any(f"{kind}.".startswith(f"{each}.") or f"{each}.".startswith(f"{kind}.") for each in asked)
-
-
-def _mending(ls: MindServer, found: Diagnostic, fix: Fix) -> types.CodeAction:
-    return types.CodeAction(
-        fix.title,
-        kind="quickfix",
-        diagnostics=[ls.session.diagnostic(found)],
-        is_preferred=fix.is_safe,
-        edit=ls.session.workspace_edit(fix.splices),
-    )
 
 
 async def edited(ls: MindServer, *arguments: Any) -> types.Location | None:
@@ -227,7 +219,7 @@ def catalog(ls: MindServer, *arguments: Any) -> list[dict[str, Any]]:
     ]
 
 
-TOLD = (
+CHANGES = (
     (types.INITIALIZE, begin),
     (types.INITIALIZED, watch),
     (types.TEXT_DOCUMENT_DID_OPEN, opened),
@@ -236,8 +228,6 @@ TOLD = (
     (types.TEXT_DOCUMENT_DID_CLOSE, closed),
     (types.WORKSPACE_DID_CHANGE_WATCHED_FILES, changed_outside),
     (types.SHUTDOWN, shut_down),
-)
-CHANGES = (
     (types.TEXT_DOCUMENT_PREPARE_RENAME, prepared),
     (types.TEXT_DOCUMENT_RENAME, renamed, types.RenameOptions(prepare_provider=True)),
     (types.TEXT_DOCUMENT_CODE_ACTION, acted, types.CodeActionOptions(code_action_kinds=list(KINDS))),

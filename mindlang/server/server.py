@@ -32,7 +32,6 @@ MAX_PENDING_EDITS = 8  # edits whose locks are looked after
 MAX_PUBLISHED_DIAGNOSTICS = 1000  # findings in a file
 TYPING_PAUSE_SECONDS = 0.15  # seconds without typing, after which a text is checked
 REQUEST_FAILED = -32803  # RequestFailed
-NOTHING_CREATED: Mapping[Path, str] = {}
 SEVERITIES = {"error": types.DiagnosticSeverity.Error, "warning": types.DiagnosticSeverity.Warning}
 BEGINNING = types.Range(types.Position(0, 0), types.Position(0, 0))
 CACHED_TEXTS = 16  # whose lines and columns are remembered
@@ -130,9 +129,7 @@ class EditorSession:
     def text_edit(self, splice: Splice) -> types.TextEdit:
         return types.TextEdit(self.range(splice), splice.text)
 
-    def workspace_edit(
-        self, splices: Iterable[Splice], created: Mapping[Path, str] = NOTHING_CREATED
-    ) -> types.WorkspaceEdit:
+    def workspace_edit(self, splices: Iterable[Splice], created: Mapping[Path, str]) -> types.WorkspaceEdit:
         """Splices of several files, and new files, as the editor takes them."""
         edits = {path: [types.TextEdit(BEGINNING, text)] for path, text in created.items()}
         for splice in splices:
@@ -176,14 +173,11 @@ class EditorSession:
                 place = (each.span.start, each.span.end) if each.span else (0, 0)
                 found.setdefault(path, {}).setdefault((*place, each.code, each.message), each)
         by_file = {path: [*each.values()] for path, each in found.items()}
-        by_file |= {path: self._stop_findings(path) for path in self.workspace.texts if are_breakpoints(path)}
+        for path in filter(are_breakpoints, self.workspace.texts):
+            mind = self.workspace.view(path).compiled
+            subject = subject_of_mind(mind) if mind.graph else None  # of one that does not compile no names are known
+            by_file[path] = [*breakpoints_of(self.source(path), subject).diagnostics]
         return {path: _first(path, each) for path, each in by_file.items()}
-
-    def _stop_findings(self, path: Path) -> list[Diagnostic]:
-        """The diagnostics of a .break file; no names are looked for in a mind that does not compile."""
-        mind = self.workspace.view(path).compiled
-        subject = subject_of_mind(mind) if mind.graph else None
-        return [*breakpoints_of(self.source(path), subject).diagnostics]
 
     def saved(self, path: Path) -> Iterator[str]:
         """A file lies on the disk as it is; what there is to say of the locks that have followed."""

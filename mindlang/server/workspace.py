@@ -68,19 +68,18 @@ class MindView:
         from mindlang.lint.settings import settings_of
 
         settings = settings_of(self.main)
+        # What is wrong in another file is said on the first line of the mind's own, which an editor has open.
+        here = Span(self.compiled.sources[0], 0, 0) if self.compiled.sources else None
         try:
             found = lint(self.compiled, settings.codes(self.main))
-            return (*map(self._in_first_line, settings.wrong), *found)
         except MindError as error:
-            where = Span(self.compiled.sources[0], 0, 0)
-            damage = Diagnostic("damaged-lock", f"{error}.", where, error.hint, severity="warning")
+            damage = Diagnostic("damaged-lock", f"{error}.", here, error.hint, severity="warning")
             return (*self.compiled.diagnostics, damage)
-
-    def _in_first_line(self, diagnostic: Diagnostic) -> Diagnostic:
-        """A warning about another file, on the first line of the mind's own, which an editor has open."""
-        where = f"{diagnostic.span.source.name}:{diagnostic.span.line}: " if diagnostic.span else ""
-        here = Span(self.compiled.sources[0], 0, 0) if self.compiled.sources else None
-        return replace(diagnostic, message=f"{where}{diagnostic.message}", span=here, severity="warning")
+        wrong = []
+        for each in settings.wrong:
+            where = f"{each.span.source.name}:{each.span.line}: " if each.span else ""
+            wrong.append(replace(each, message=f"{where}{each.message}", span=here, severity="warning"))
+        return (*wrong, *found)
 
 
 def view(main: Path, texts: Texts) -> MindView:

@@ -68,20 +68,17 @@ class ViewSession:
         """The first message to a viewer: the run, and the columns of its rows."""
         viewed = self.forks[0]
         columns = viewed.columns
+        # It is what a robot drives, which began this process and takes orders.
+        takes_orders = viewed.about["source"] == "robot" and os.getppid() in drivers()
         return {
             "say": "about",
             "edits": edits,
-            "orders": order_data(viewed.flows.graph) if edits and self._takes_orders(viewed) else [],
+            "orders": order_data(viewed.flows.graph) if edits and takes_orders else [],
             "doubles": columns.width(DOUBLE_BLOCK),
             "singles": columns.width(SINGLE_BLOCK),
             "columns": {name: [g.block, g.first, g.count] for name, g in columns.items()},
             **viewed.about,
         }
-
-    @staticmethod
-    def _takes_orders(viewed: Viewed) -> bool:
-        """True if it is what a robot drives, which began this process and takes orders."""
-        return bool(viewed.about["source"] == "robot" and os.getppid() in drivers())
 
     def ticks(self, fork: int, happened: int = 0, stops: int = 0) -> dict[str, Any]:
         """The message on how far a fork has come, with its events and stops from those numbers on."""

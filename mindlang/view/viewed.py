@@ -62,7 +62,9 @@ class Viewed:
     ) -> None:
         self.about, self.columns, self.is_live, self.drawing = about, columns, is_live, drawing
         self.begins: set[int] = set()
-        self.flows = EdgeFlows(graph, mind, self._thought, self.begins)
+        self.flows = EdgeFlows(
+            graph, mind, lambda ticks: (self.group("readings", ticks), self.group("influence", ticks)), self.begins
+        )
         self.forked: Callable[[AskChange], tuple[Viewed, str]] | None = None
         self.blocks = RowBlocks()
         self.happened: list[tuple[int, int]] = []
@@ -72,10 +74,6 @@ class Viewed:
         self.failed: str | None = None
         self._growth = growth(self)
         self._seen: SeenEpisode | None = None
-
-    def _thought(self, ticks: TickNumbers) -> tuple[Singles, Singles]:
-        """The readings and the influence of ticks [ticks, numbers]; in the first tick nothing flows."""
-        return self.group("readings", ticks), self.group("influence", ticks)
 
     @property
     def known(self) -> int:
