@@ -146,8 +146,14 @@ class Place:
 def laid_out(links: Sequence[Link], skills: Sequence[int], room: Region) -> tuple[dict[Sink, Place], list[list[Place]]]:
     """The boxes in rows from the master down, so that few links cross, and the places that each link goes through."""
     level = _levels(links, skills)
-    routes = [_route(number, link, level) for number, link in enumerate(links)]
-    rows = _ordered(_rows(level, routes), routes)
+    routes: list[list[Stop]] = []
+    for number, link in enumerate(links):  # from box to box, with a stop in each row that it passes
+        passed = range(level["skill", link.source] + 1, level[link.target])
+        stops: dict[Stop, int] = {("link", number * 1000 + row): row for row in passed}
+        routes.append([("skill", link.source), *stops, link.target])
+        level |= stops
+    rows = [[stop for stop, at in level.items() if at == row] for row in range(max(level.values()) + 1)]
+    rows = _ordered(rows, routes)
     places = {sink: place for i, row in enumerate(rows) for sink, place in _spread(row, i, len(rows), room)}
     boxes = {(to, index): place for (to, index), place in places.items() if to != "link"}
     return boxes, [[places[stop] for stop in route] for route in routes]
@@ -161,23 +167,6 @@ def _levels(links: Sequence[Link], skills: Sequence[int]) -> dict[Stop, int]:
             level[link.target] = max(level[link.target], level["skill", link.source] + 1)
     last = max(level.values()) + 1
     return level | dict.fromkeys(sorted(link.target for link in links if link.target[0] != "skill"), last)
-
-
-def _route(number: int, link: Link, level: dict[Stop, int]) -> list[Stop]:
-    """The link's ends, and between them a stop in each row that it passes."""
-    source: Sink = ("skill", link.source)
-    passed = range(level[source] + 1, level[link.target])
-    return [source, *(("link", number * 1000 + row) for row in passed), link.target]
-
-
-def _rows(level: dict[Stop, int], routes: Iterable[Sequence[Stop]]) -> list[list[Stop]]:
-    rows: list[list[Stop]] = [[] for _ in range(max(level.values()) + 1)]
-    for sink, row in level.items():
-        rows[row].append(sink)
-    for route in routes:
-        for row, stop in enumerate(route[1:-1], level[route[0]] + 1):
-            rows[row].append(stop)
-    return rows
 
 
 def _ordered(rows: list[list[Stop]], routes: Iterable[Sequence[Stop]]) -> list[list[Stop]]:
