@@ -39,6 +39,7 @@ from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
 from mindlang.server.navigating import definitions, highlights, matching_declarations, references
 from mindlang.server.proposals import Selection, all_mended, mendings, proposals
+from mindlang.server.questions import outline
 from mindlang.server.server import EditorSession
 
 LINEAR_RATIO = 2.8  # what shapes with names of more digits, or that change into one another, come to by themselves
@@ -168,7 +169,7 @@ def _outlined(case: Case) -> None:
     session = case.session()
     if file := session.workspace.view(case.path).file(case.path):
         for declaration in file.declarations:
-            session.range(declaration.header.span)
+            outline(session, declaration)
     matching_declarations(session.workspace, [case.path.parent], "g")
     for splice in format_splices(Source("mind.mind", case.text, case.path.parent)):
         session.text_edit(splice)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from mindlang.api import load as load
     from mindlang.api import loads as loads
     from mindlang.compiler.diagnostic import Diagnostic as Diagnostic
-    from mindlang.pictures.learning_log import plot_training as plot_training
+    from mindlang.pictures.training_plot import plot_training as plot_training
     from mindlang.training.lesson_choice import TrainOptions as TrainOptions
 
 __getattr__ = lazy_names(
@@ -29,7 +29,7 @@ __getattr__ = lazy_names(
     {
         "mindlang.api": ("EditedMind", "Mind", "load", "loads"),
         "mindlang.compiler.diagnostic": ("Diagnostic",),
-        "mindlang.pictures.learning_log": ("plot_training",),
+        "mindlang.pictures.training_plot": ("plot_training",),
         "mindlang.training.lesson_choice": ("TrainOptions",),
         "mindrun.errors": ("MindError",),
         "mindrun.train.lesson_state": ("Record",),

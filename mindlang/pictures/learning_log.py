@@ -7,14 +7,12 @@ import zlib
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from importlib.util import find_spec
 from io import BytesIO, StringIO
 from math import isfinite, sqrt
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-from mindrun.errors import MindError
 from mindrun.files.regular_files import read_whole
 from mindrun.files.strict_json import is_whole
 from mindrun.train import NotFoundError, RunError
@@ -23,9 +21,6 @@ from mindrun.train.run_folder import MANIFEST, open_run, read_failure
 from numpy.typing import NDArray
 
 from mindlang.training.standstill import Records, idle_ticks
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 TABLES = (".csv", ".csv.gz")
 HINT = f"a run is a folder like runs/GoToObject/20260714T120000Z-1, a table ends in {' or '.join(TABLES)}"
@@ -246,24 +241,3 @@ def _note(runs: Sequence[Curve]) -> str:
 def _mean(generation: int, scores: Sequence[float] | NDArray[np.float64]) -> MeanPoint:
     error = float(np.std(scores, ddof=1)) / sqrt(len(scores)) if len(scores) > 1 else None
     return MeanPoint(generation, float(np.mean(scores)), error)
-
-
-def plot_training(*runs: Path | str, mean: bool = False, ticks: bool = False) -> "Figure":
-    """How the skills of these runs were learnt, as `mindc plot` draws it: a matplotlib figure.
-
-    Each is the folder of a run (a result of `train` has its own as `run`), a folder with runs beneath it, or a table of
-    a log. With `mean`, runs of one lesson become one panel with their mean; with `ticks`, they are drawn along those.
-    MindError where there is nothing to draw.
-
-    >>> [result] = mind.train("GoToObject", options=mindlang.TrainOptions(generations=1, attempts=1))
-    >>> mindlang.plot_training(result["run"]).savefig("curves.svg")
-    """
-    if find_spec("matplotlib") is None:
-        raise MindError("curves are drawn with matplotlib, which is not installed", "pip install 'mindlang[plot]'")
-    from mindlang.pictures.curves import figure, mean_figure
-
-    curves = load_curves([Path(run) for run in runs])
-    if not curves:
-        raise MindError("there is no run to draw", 'name one: mindlang.plot_training("runs")')
-    curves = [*map(along_ticks, curves)] if ticks else curves
-    return mean_figure(by_lesson(curves)) if mean else figure(curves)

@@ -104,10 +104,10 @@ def highlighted(ls: MindServer, params: types.DocumentHighlightParams) -> list[t
 def outlined(ls: MindServer, params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
     view, path = ls.session.asked(params)
     file = view.file(path)
-    return [_outline(ls.session, each) for each in file.declarations] if file else []
+    return [outline(ls.session, each) for each in file.declarations] if file else []
 
 
-def _outline(session: EditorSession, declaration: Declaration) -> types.DocumentSymbol:
+def outline(session: EditorSession, declaration: Declaration) -> types.DocumentSymbol:
     """A declaration from its header to the end of its last line, with the things that it contains."""
     header = declaration.header
     end = max(each.span.end for each in (header, *declaration.facts))

@@ -137,7 +137,7 @@ def test_what_is_imported_is_declared() -> None:
 def test_only_curves_need_matplotlib() -> None:
     assert [file for file, names in foreign(modules(COMPILER)).items() if "matplotlib" in names] == [
         "mindlang/pictures/curves.py",
-        "mindlang/pictures/learning_log.py",  # for its type, and once it is asked for
+        "mindlang/pictures/training_plot.py",  # for its type, and once it is asked for
     ]
 
 
