@@ -284,9 +284,11 @@ class BackgroundView:
         self.address = self._ready.result()
 
     def show(self, viewed: Viewed) -> None:
+        """Let all viewers see another run."""
         self._loop.call_soon_threadsafe(self._session.show, viewed)
 
     def close(self) -> None:
+        """End it: pages keep what they have fetched."""
         if self._thread.is_alive():
             self._loop.call_soon_threadsafe(self._serving.cancel)
             self._thread.join()
