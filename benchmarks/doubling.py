@@ -37,8 +37,9 @@ from mindlang.proofs.proof import prove
 from mindlang.server.changing import perform
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
-from mindlang.server.navigating import definitions, highlights, matching_symbols, references, symbols
+from mindlang.server.navigating import definitions, highlights, matching_declarations, references
 from mindlang.server.proposals import Selection, all_mended, mendings, proposals
+from mindlang.server.questions import outline
 from mindlang.server.server import EditorSession
 
 LINEAR_RATIO = 2.8  # what shapes with names of more digits, or that change into one another, come to by themselves
@@ -151,27 +152,27 @@ def _asked(case: Case) -> None:
 def _acted(case: Case) -> None:
     """What an editor can do about all that is found, and at the master."""
     session = case.session()
-    workspace, lsp = session.workspace, session.lsp
+    workspace = session.workspace
     view = workspace.view(case.path)
     for _, fix in mendings(view, case.path, 0, len(case.text)):
-        lsp.workspace_edit(fix.splices, {}, plain=True)
+        session.workspace_edit(fix.splices, {})
     all_mended(view, case.path, workspace.texts)
     if case.compiled.graph:
         at = max(case.text.find("skill Go"), 0)
         proposals(Selection(open_project(case.compiled), case.path, at, at))
         with suppress(EditError):
             outcome = perform(workspace, case.path, "rename", {"old": "eye", "new": "other", "noun": "sensor"})
-            lsp.workspace_edit(outcome.change.splices, {}, plain=True)
+            session.workspace_edit(outcome.change.splices, {})
 
 
 def _outlined(case: Case) -> None:
     session = case.session()
     if file := session.workspace.view(case.path).file(case.path):
-        for symbol in symbols(file):
-            session.lsp.range(symbol.whole)
-    matching_symbols(session.workspace, [case.path.parent], "g")
+        for declaration in file.declarations:
+            outline(session, declaration)
+    matching_declarations(session.workspace, [case.path.parent], "g")
     for splice in format_splices(Source("mind.mind", case.text, case.path.parent)):
-        session.lsp.text_edit(splice)
+        session.text_edit(splice)
 
 
 COMMANDS: Mapping[str, Callable[[Case], None]] = {

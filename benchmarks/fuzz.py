@@ -33,9 +33,10 @@ from mindlang.lock.status import NotLearning, status
 from mindlang.proofs.proof import prove
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
-from mindlang.server.navigating import definitions, highlights, references, symbols
+from mindlang.server.navigating import definitions, highlights, references
 from mindlang.server.proposals import all_mended, mendings
-from mindlang.server.server import LspConverter
+from mindlang.server.questions import outline
+from mindlang.server.server import EditorSession
 from mindlang.server.workspace import Workspace
 
 CPU_SECONDS = 2.0  # seconds of the processor
@@ -128,13 +129,14 @@ def _prove(place: Place, found: Compiled, text: str, random: Random) -> None:
 
 def _answers(place: Place, found: Compiled, text: str, random: Random) -> None:
     """What an editor asks about three places."""
-    path, wire = place.main, LspConverter()
+    path, wire = place.main, EditorSession()
     workspace = Workspace({**place.texts, path: text})
     view = workspace.view(path)
     for each in view.findings:
         wire.diagnostic(each)
     if file := view.file(path):
-        symbols(file)
+        for declaration in file.declarations:
+            outline(wire, declaration)
     all_mended(view, path, workspace.texts)
     format_splices(Source("case.mind", text, place.folder))
     for _ in range(3):

@@ -118,7 +118,7 @@ def _draw(compared: "Compared", request: "Request", path: Path) -> str:
 
         shown = "both runs"
     else:
-        from mindlang.pictures.two_paths import two_paths as two_runs
+        from mindlang.pictures.picture import two_paths as two_runs
 
         shown = "both paths of the robot"
     both = [(each.run, each.found) for each in (compared.was, compared.now)]

@@ -18,14 +18,12 @@ CAPITAL_PIXELS = 22.0  # pixels: the height of a line of text at OpenCV's size 1
 
 
 def blank(width: int, height: int, colour: Colour) -> Image:
-    """An image of one colour."""
     image = np.empty((height, width, 3), np.uint8)
     image[:] = np.full((width, 3), colour, np.uint8)  # whole rows are copied five times as fast as pixels
     return image
 
 
 def paste(page: Image, part: Image, x: int, y: int) -> None:
-    """Put a part on a page."""
     page[y : y + part.shape[0], x : x + part.shape[1]] = part
 
 
@@ -57,12 +55,10 @@ class Region(NamedTuple):
     height: float
 
     def overlaps(self, other: "Region") -> bool:
-        """True if both share an area."""
         is_beside = self.left >= other.left + other.width or other.left >= self.left + self.width
         return not (is_beside or self.low >= other.low + other.height or other.low >= self.low + self.height)
 
     def is_within(self, other: "Region") -> bool:
-        """True if the other covers all of it."""
         right, top = other.left + other.width, other.low + other.height
         ends_in = self.left + self.width <= right and self.low + self.height <= top
         return other.left <= self.left and other.low <= self.low and ends_in
@@ -119,14 +115,12 @@ class Canvas:
         self._blend(alpha, self.places([x, y]), room, lambda image, at: cv2.circle(image, at[0].tolist(), *how))
 
     def polygon(self, points: ArrayLike, colour: Colour, alpha: float = 1.0) -> None:
-        """Draw a filled convex polygon."""
         how = colour, cv2.LINE_AA, COORDINATE_BITS
         self._blend(alpha, self.places(points), 1.0, lambda image, at: cv2.fillConvexPoly(image, at, *how))
 
     def line(
         self, points: ArrayLike, colour: Colour, width: float = 1.0, alpha: float = 1.0, closed: bool = False
     ) -> None:
-        """Draw a line through points."""
         wide = self._line(width)
         how = closed, colour, wide, cv2.LINE_AA, COORDINATE_BITS
         self._blend(alpha, self.places(points), wide, lambda image, at: cv2.polylines(image, [at], *how))

@@ -15,6 +15,7 @@ from mindlang.pictures.picture import (
     SCALE_FACTOR,
     SIDE_PIXELS,
     SMALL_PIXELS,
+    TITLE_LINE_PIXELS,
     TOP_PIXELS,
     draw_title,
     empty_page,
@@ -68,9 +69,8 @@ def _sheet(run: RecordedRun, found: dict[str, Any], ticks: Sequence[int], said: 
     height = max(1, round(width * high / wide))
     rows = -(-len(ticks) // SHEET_COLUMNS)
     page = empty_page(TOP_PIXELS + rows * (height + LABEL_PIXELS + GAP_PIXELS) + GAP_PIXELS)
-    right = PICTURE_PIXELS - SIDE_PIXELS
-    draw_title(page, run, found, SIDE_PIXELS, 34, right)
-    page.text(right, 34, said, SAID_PIXELS, PAPER.ink, align="right")
+    draw_title(page, run, found)
+    page.text(PICTURE_PIXELS - SIDE_PIXELS, TITLE_LINE_PIXELS, said, SAID_PIXELS, PAPER.ink, align="right")
     for number, tick in enumerate(ticks):
         row, column = divmod(number, SHEET_COLUMNS)
         x = SIDE_PIXELS + column * (width + GAP_PIXELS)

@@ -66,12 +66,7 @@ class Film:
     def __len__(self) -> int:
         return self.moving + round(END_SECONDS * self.format.fps)
 
-    def __iter__(self) -> Iterator[Image]:
-        return (self[number] for number in range(len(self)))
-
     def __getitem__(self, number: int) -> Image:
-        if not 0 <= number < len(self):
-            raise IndexError(number)
         if number >= self.moving:
             return self._end
         return self._images.image(min(self.run.ticks, 1 + round(number * self._step)))
@@ -109,8 +104,8 @@ def _mp4(path: Path, film: Film, wrote: Callable[[], None]) -> None:
     try:
         if not writer.isOpened():
             raise VideoError("OpenCV cannot encode a video there")
-        for image in film:
-            writer.write(image)
+        for number in range(len(film)):
+            writer.write(film[number])
             wrote()
     finally:
         writer.release()
@@ -131,8 +126,8 @@ def _gif(path: Path, film: Film, wrote: Callable[[], None]) -> None:
     palette = Pillow.fromarray(np.concatenate(samples)).quantize(PALETTE_COLOURS, dither=Pillow.Dither.NONE)
 
     def drawn() -> Iterator[Pillow.Image]:
-        for image in film:
-            yield Pillow.fromarray(_small(image)).quantize(palette=palette, dither=Pillow.Dither.NONE)
+        for number in range(len(film)):
+            yield Pillow.fromarray(_small(film[number])).quantize(palette=palette, dither=Pillow.Dither.NONE)
             wrote()
 
     images = drawn()

@@ -10,8 +10,7 @@ from mindrun.graph.run_scores import score_of
 from mindlang.pictures import path
 from mindlang.pictures.canvas import Canvas, Image, Region, Viewport, blank, flow_layout, letterbox, paste, text_width
 from mindlang.pictures.environments import seen_run
-from mindlang.pictures.hierarchy_panel import HierarchyPanel
-from mindlang.pictures.readings_panel import COLUMN_PIXELS, ROW_PIXELS, ReadingsPanel, sensors_read
+from mindlang.pictures.panels import COLUMN_PIXELS, ROW_PIXELS, HierarchyPanel, ReadingsPanel, sensors_read
 from mindlang.pictures.robot import draw_robot
 from mindlang.pictures.scene import WALL_UNITS, draw_items, draw_names, draw_zones, each_thing, empty_world, half_sides
 from mindlang.pictures.theme import NIGHT
@@ -50,7 +49,6 @@ class FilmLayout:
 
     @property
     def panel(self) -> Region:
-        """The rectangle of the hierarchy and the readings."""
         left, top = self.left + MARGIN_PIXELS, self.top + TITLE_PIXELS
         return Region(left, top, self.width - left - MARGIN_PIXELS, self.height - top - MARGIN_PIXELS - 2)
 
@@ -122,7 +120,6 @@ class FilmImages:
         return [Region(*each) for each in (np.array(corners) * view.scale).tolist()]
 
     def view(self, tick: int) -> Viewport:
-        """The part of the world that is shown in a tick."""
         return window(self._run, tick, *self.layout.world)
 
     def _drawn(self, tick: int, world: Image) -> Canvas:
@@ -182,7 +179,6 @@ def half_window(run: RecordedRun) -> tuple[float, float]:
 
 
 def window(run: RecordedRun, tick: int, width: int, height: int) -> Viewport:
-    """The part of the world that is shown in a tick, in an image of so many pixels."""
     half = np.array(half_window(run))
     middle = run.body[tick, :2] * (not run.task.scene.is_bounded)
     return Viewport.around(middle - half, middle + half, width, height)

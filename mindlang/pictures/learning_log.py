@@ -49,11 +49,9 @@ class Curve:
 
     @property
     def attempts(self) -> list[int]:
-        """The numbers of the attempts that have begun."""
         return sorted({int(record["attempt"] or 0) for record in self.records})
 
     def last(self, attempt: int) -> int:
-        """The last generation of an attempt."""
         return max(int(record["generation"] or 0) for record in self.records if record["attempt"] == attempt)
 
     def has_ended(self, attempt: int) -> bool:
@@ -70,7 +68,6 @@ class Curve:
         return [(generation, score) for generation, score in scores if score is not None and isfinite(score)]
 
     def data(self) -> dict[str, Any]:
-        """The figures of the curve by their names, as plain data."""
         return {
             "name": self.name,
             "run": str(self.path),
@@ -185,7 +182,6 @@ class MeanCurve:
 
     @property
     def attempts(self) -> int:
-        """How many attempts all runs have begun."""
         return sum(len(run.attempts) for run in self.runs)
 
     @property
@@ -216,7 +212,6 @@ class MeanCurve:
         return _mean(self.generations, [track[-1][1] for track in verdicts]) if all(verdicts) else None
 
     def data(self) -> dict[str, Any]:
-        """The figures of the mean curve by their names, as plain data."""
         verdict = self.verdict()
         return {
             "name": self.name,

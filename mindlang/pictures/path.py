@@ -34,7 +34,6 @@ class Stroke:
     core: Colour | None = None
 
     def draw(self, canvas: Canvas, points: ArrayLike, width: float) -> None:
-        """Draw a line through points; a wider one where it has a core."""
         outer, inner = CORE_SHARES
         canvas.line(points, self.colour, width * (outer if self.core else 1.0))
         if self.core:
@@ -68,7 +67,6 @@ class Path:
         return cls(places, keys, shades, {})
 
     def draw(self, canvas: Canvas, first: int, last: int, width: float) -> None:
-        """Draw the path from tick `first` to tick `last`."""
         keys = self.keys[first:last]
         changes = np.flatnonzero(np.diff(keys, prepend=-1, append=-1)).tolist()
         for begin, end in pairwise(changes):
@@ -76,27 +74,23 @@ class Path:
 
 
 def strokes_of(theme: Theme, count: int) -> list[Stroke]:
-    """A stroke for each of so many skills: each colour alone, then each around another one."""
     cores = (None, theme.floor, theme.ink)
     many = len(theme.skills)
     return [Stroke(theme.skills[i % many], cores[i // many % len(cores)]) for i in range(count)]
 
 
 def draw_start(canvas: Canvas, run: RecordedRun) -> None:
-    """Draw the mark of the place where the run began."""
     x, y, _ = run.body[0]
     canvas.disc(x, y, 5 * canvas.pixel, PAPER.floor)
     canvas.disc(x, y, 5 * canvas.pixel, PAPER.ink, width=1.8)
 
 
 def draw_collisions(canvas: Canvas, run: RecordedRun) -> None:
-    """Draw the marks of collisions; over the robot, since a run may end there."""
     for x, y, _ in run.body[run.collisions]:
         draw_cross(canvas, x, y, 5.5 * canvas.pixel, PAPER)
 
 
 def draw_cross(canvas: Canvas, x: float, y: float, size: float, theme: Theme) -> None:
-    """Draw the mark of a collision."""
     for colour, width in ((theme.floor, 4.5), (theme.crash, 2.2)):
         for up in (size, -size):
             canvas.line([(x - size, y - up), (x + size, y + up)], colour, width)
@@ -126,7 +120,6 @@ def draw_former(canvas: Canvas, run: RecordedRun) -> None:
 
 
 def ending_words(found: dict[str, Any]) -> str:
-    """How a run with the outcome `found` ended."""
     event, is_success = found["ended_by"], bool(found.get("succeeded"))
     if event is None:
         return "lasted its time" + ", a success" * is_success
@@ -145,7 +138,6 @@ def draw_end_mark(canvas: Canvas, run: RecordedRun, found: dict[str, Any], theme
 
 
 def end_label(canvas: Canvas, run: RecordedRun, found: dict[str, Any]) -> SceneLabel:
-    """The words beside the mark."""
     x, y, _ = run.body[-1]
     size = 2 * (run.graph.body.radius + (MARK_PIXELS + RING_PIXELS) * canvas.pixel)
     return SceneLabel(ending_words(found), LABEL_PIXELS, ending_colour(found, PAPER), x, y, size)

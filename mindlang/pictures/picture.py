@@ -1,4 +1,4 @@
-"""The picture of a run: its world as it was in the end, the path that led there, and the words around it."""
+"""Pictures of a run: its world in the end, the path that led there, the words around it; and of a run changed."""
 
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -7,6 +7,7 @@ from typing import Any
 import cv2
 import numpy as np
 from mindrun.sim.task_rows import boxes_by_name
+from mindrun.terminal.tick_count import ticks as in_words
 from numpy.typing import NDArray
 
 from mindlang.number_format import score
@@ -23,6 +24,7 @@ from mindlang.pictures.path import (
     draw_rings,
     draw_start,
     end_label,
+    ending_words,
 )
 from mindlang.pictures.robot import draw_robot
 from mindlang.pictures.theme import PAPER, Colour, mixed
@@ -30,6 +32,7 @@ from mindlang.run.recorded_run import RecordedRun
 
 PICTURE_PIXELS = 1000
 TOP_PIXELS, BOTTOM_PIXELS, SIDE_PIXELS = 96, 74, 28  # what stands around the world
+TITLE_LINE_PIXELS = 34
 SCALE_BAR_PIXELS = 170  # beside the legend
 SCALE_FACTOR = 2  # drawn so many times larger, then averaged
 PLAIN_MARGIN_UNITS = 6.0  # around a plain scene
@@ -37,11 +40,15 @@ ENTRY_GAP_PIXELS = 22.0  # between two entries
 SMALL_PIXELS, LARGE_PIXELS, MIN_TEXT_PIXELS = 11.0, 14.0, 5.0
 LEGEND_LINES, LEGEND_LINE_PIXELS = 2, 22.0  # how many, and how high
 LEGEND_MARK_PIXELS = 26.0  # the width of what stands before a name
+OUTCOME_PIXELS = 24.0  # the height of a line that says what came of a run
+WORDS_PIXELS = 13.0
+PATH_PIXELS = 3.6, 1.8  # the width of the paths: where they are one, both are seen
+AROUND_PIXELS, MARK_PIXELS = 7.0, 5.0  # from a robot to the ring around it; the marks of the start and of the change
+NAMES = "as it was", "changed"
 Entry = tuple[Callable[[float, float], None], str]  # what draws the mark at a place, and the name behind it
 
 
 def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
-    """The picture of a run with the outcome `found`."""
     world, path = world_of(run), Path.of(run, PAPER)
     draw_former(world, run)
     scene.draw_zones(world, run, PAPER, run.ticks)
@@ -52,10 +59,10 @@ def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
     draw_robot(world, run, PAPER, run.ticks)
     draw_collisions(world, run)
     scene.draw_names(world, run, PAPER, run.ticks, end_label(world, run, found))
-    height, right = height_of(run), PICTURE_PIXELS - SIDE_PIXELS
+    height = height_of(run)
     page = page_around(world, height)
-    draw_title(page, run, found, SIDE_PIXELS, 34, right)
-    draw_legend(page, run, found, path, SIDE_PIXELS, height - 46, right - SCALE_BAR_PIXELS)
+    draw_title(page, run, found)
+    draw_legend(page, run, found, path, height - 46)
     return reduced(page.image, 1 / SCALE_FACTOR)
 
 
@@ -84,13 +91,11 @@ def view_of(run: RecordedRun, width: int, height: int, *others: RecordedRun) -> 
 
 
 def _places(run: RecordedRun) -> list[NDArray[np.float64]]:
-    """The places [n, 2] at which anything was."""
     things = (run.placements(i)[:, :2] for i in range(len(run.contents)))
     return [run.body[:, :2], *things, *(box[None, :2] for box in run.standing.values())]
 
 
 def empty_page(height: int) -> Canvas:
-    """A page so many pixels high."""
     size = SCALE_FACTOR * PICTURE_PIXELS, SCALE_FACTOR * height
     return Canvas.of_page(blank(*size, PAPER.page), SCALE_FACTOR)
 
@@ -116,9 +121,10 @@ def png(image: Image) -> bytes:
     return bytes(data)
 
 
-def draw_title(canvas: Canvas, run: RecordedRun, found: dict[str, Any], x: float, y: float, right: float) -> None:
-    """Draw the task, and the facts of the run side by side up to `right`, each below its name."""
-    canvas.text(x, y, run.task.name, 24, PAPER.ink, bold=True)
+def draw_title(canvas: Canvas, run: RecordedRun, found: dict[str, Any]) -> None:
+    """Draw the task, and the facts of the run side by side, each below its name."""
+    x = float(SIDE_PIXELS)
+    canvas.text(x, TITLE_LINE_PIXELS, run.task.name, 24, PAPER.ink, bold=True)
     facts = [
         *(("in charge", found["master"]), ("seed", str(found["seed"]))),
         *((name, f"{number:.6g}") for name, number in run.drawn.items()),
@@ -129,23 +135,22 @@ def draw_title(canvas: Canvas, run: RecordedRun, found: dict[str, Any], x: float
     ]
     gap = 1.6 * ENTRY_GAP_PIXELS
     wide = [max(canvas.width(name, SMALL_PIXELS), canvas.width(value, LARGE_PIXELS)) + gap for name, value in facts]
-    fit = min(1.0, (right - x) / (sum(wide) - gap))  # smaller, where much is counted
+    fit = min(1.0, (PICTURE_PIXELS - 2 * SIDE_PIXELS) / (sum(wide) - gap))  # smaller, where much is counted
     for (name, value), width in zip(facts, wide, strict=True):
-        canvas.text(x, y + 25, name, fit * SMALL_PIXELS, PAPER.faint)
-        canvas.text(x, y + 46, value, fit * LARGE_PIXELS, PAPER.ink)
+        canvas.text(x, TITLE_LINE_PIXELS + 25, name, fit * SMALL_PIXELS, PAPER.faint)
+        canvas.text(x, TITLE_LINE_PIXELS + 46, value, fit * LARGE_PIXELS, PAPER.ink)
         x += fit * width
 
 
-def draw_legend(
-    canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path, x: float, y: float, right: float
-) -> None:
-    """Draw the legend of colours and marks, in lines that end before `right`, smaller where they are many."""
+def draw_legend(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path, y: float) -> None:
+    """Draw the legend of colours and marks, in lines that end before the scale, smaller where they are many."""
     entries = _entries(canvas, run, found, path)
-    size, places = legend_layout(canvas, [name for _, name in entries], right - x)
+    room = PICTURE_PIXELS - 2 * SIDE_PIXELS - SCALE_BAR_PIXELS
+    size, places = legend_layout(canvas, [name for _, name in entries], room)
     for (draw, name), (along, line) in zip(entries, places, strict=True):
         low = y + LEGEND_LINE_PIXELS * line
-        draw(x + along, low - 4)
-        canvas.text(x + along + LEGEND_MARK_PIXELS, low, name, size, PAPER.ink)
+        draw(SIDE_PIXELS + along, low - 4)
+        canvas.text(SIDE_PIXELS + along + LEGEND_MARK_PIXELS, low, name, size, PAPER.ink)
 
 
 def legend_layout(canvas: Canvas, names: Sequence[str], room: float) -> tuple[float, list[tuple[float, int]]]:
@@ -191,3 +196,58 @@ def _entries(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path
     if hits := len(run.collisions):
         entries.append((lambda x, y: draw_cross(canvas, x + 9, y, 5, PAPER), f"collision ({hits})"))
     return entries
+
+
+def two_paths(both: Sequence[tuple[RecordedRun, dict[str, Any]]], words: str, tick: int) -> Image:
+    """The picture of two runs and what came of them; the second is changed, as `words` say, from a tick on."""
+    (was, found), (now, _) = both
+    height, right = height_of(was), PICTURE_PIXELS - SIDE_PIXELS
+    page = page_around(_both(was, now, tick), height)
+    page.text(SIDE_PIXELS, 40, was.task.name, 24, PAPER.ink, bold=True)
+    said = f"{found['master']} in charge, seed {found['seed']}, {words}"
+    _fitting(page, SIDE_PIXELS, 70, said, WORDS_PIXELS, right - 110)
+    when = f"tick {tick:,}"
+    page.text(right, 70, when, SMALL_PIXELS, PAPER.ink, align="right")
+    _mark(page, right - page.width(when, SMALL_PIXELS) - 2 * MARK_PIXELS, 66)
+    for line, (name, (_, outcome)) in enumerate(zip(NAMES, both, strict=True)):
+        low = height - 46.0 + OUTCOME_PIXELS * line
+        page.line([(SIDE_PIXELS, low - 4), (SIDE_PIXELS + 20, low - 4)], PAPER.skills[line], 3.0)
+        _fitting(page, SIDE_PIXELS + 30, low, f"{name}: {outcome_words(outcome)}", SMALL_PIXELS, right - 150.0)
+    return reduced(page.image, 1 / SCALE_FACTOR)
+
+
+def _both(was: RecordedRun, now: RecordedRun, tick: int) -> Canvas:
+    """Floor and things as they were before the change, both paths, both robots where they came to."""
+    parted = min(tick - 1, was.ticks, now.ticks)
+    canvas = world_of(was, now)
+    scene.draw_zones(canvas, was, PAPER, parted)
+    scene.draw_items(canvas, was, PAPER, parted)
+    canvas.line(was.body[: parted + 1, :2], PAPER.faint, PATH_PIXELS[1])
+    for run, colour, thick in zip((was, now), PAPER.skills, PATH_PIXELS, strict=False):
+        canvas.line(run.body[parted:, :2], colour, thick)
+    draw_start(canvas, was)
+    for run, colour in zip((was, now), PAPER.skills, strict=False):
+        draw_robot(canvas, run, PAPER, run.ticks)
+        x, y, _ = run.body[-1]
+        canvas.disc(x, y, was.graph.body.radius + AROUND_PIXELS * canvas.pixel, colour, width=3.0)
+        draw_collisions(canvas, run)
+    x, y, _ = was.body[parted]
+    _mark(canvas, x, y)
+    scene.draw_names(canvas, was, PAPER, parted)
+    return canvas
+
+
+def _mark(canvas: Canvas, x: float, y: float) -> None:
+    """Draw a mark where the robot was when something was changed."""
+    canvas.disc(x, y, MARK_PIXELS * canvas.pixel, PAPER.lamp)
+    canvas.disc(x, y, MARK_PIXELS * canvas.pixel, PAPER.ink, width=1.8)
+
+
+def outcome_words(found: dict[str, Any]) -> str:
+    counted = [f"{times} × {event}" for event, times in found["by_event"].items()]
+    return ", ".join([f"score {score(found['score'])}", *counted, in_words(found["ticks"]), ending_words(found)])
+
+
+def _fitting(page: Canvas, x: float, y: float, text: str, size: float, right: float) -> None:
+    """Draw a line of text, smaller where it would go beyond `right`."""
+    page.text(x, y, text, size * min(1.0, (right - x) / page.width(text, size)), PAPER.ink)

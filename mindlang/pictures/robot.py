@@ -1,6 +1,7 @@
 """The robot of a run: its body, what moves it, and what its sensors look at; what is seen is lit."""
 
 from collections.abc import Iterator
+from operator import itemgetter
 
 import numpy as np
 from mindrun.graph.named_readings import servo_reading
@@ -41,7 +42,6 @@ def draw_robot(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
 
 
 def _part(canvas: Canvas, corners: Floats, theme: Theme, edge: float) -> None:
-    """Draw a piece of its body with an edge."""
     canvas.polygon(corners, theme.robot)
     canvas.line(corners, theme.floor, edge, closed=True)
 
@@ -60,7 +60,6 @@ def _sensed(run: RecordedRun, tick: int) -> Iterator[tuple[SensorKind, Floats]]:
 
 
 def _wheels(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """Draw the four wheels of a car, the front ones turned."""
     body = run.graph.body
     long, wide = (share * 2 * body.front for share in WHEEL_SHARES)
     for ahead, turn in ((-0.5, 0.0), (0.5, steering_angle(run, tick))):
@@ -146,14 +145,13 @@ def _touches(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
         for at, reading in zip(kind.directions, readings, strict=True)
         if not np.isnan(reading)
     ]
-    for reading, points in sorted(shown, key=lambda switch: switch[0]):
+    for reading, points in sorted(shown, key=itemgetter(0)):
         line = to_world(points, run.body[tick])
         canvas.line(line, theme.floor, SECTOR_PIXELS + 1.5)
         canvas.line(line, theme.crash if reading > 0.5 else theme.faint, SECTOR_PIXELS)
 
 
 def _rim(run: RecordedRun, at: float, sector: float) -> Floats:
-    """Points [n, 2] along the part of the rim, in the frame of the body, that is so wide around a direction."""
     angles = at + np.linspace(-sector / 2, sector / 2, SECTOR_POINTS)
     far = np.array([run.graph.body.rim(angle) for angle in angles])
     points: Floats = np.column_stack([np.cos(angles), np.sin(angles)]) * far[:, None]

@@ -60,7 +60,6 @@ def _grid(first: float, last: float) -> Floats:
 
 
 def half_sides(scene: SceneKind) -> tuple[float, float]:
-    """How far its walls are from its middle, along x and y."""
     width, depth = scene.sides
     return width / 2, depth / 2
 
@@ -129,8 +128,13 @@ def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int, ending
     each = list(each_thing(run, theme, tick))
     squares = [np.array((x, y, 2 * radius)), *(place for thing, _, place in each if not thing.kind.is_area)]
     taken = [Region(x - side / 2, y - side / 2, side, side) for x, y, side in squares]
-    said = [SceneLabel(name, NAME_PIXELS, theme.ink, *place) for name, place in _named(run, each, sight)]
-    for text in ([ending] if ending else []) + said:
+    many = Counter(thing.name for thing in run.contents)
+    said: dict[int | str | None, SceneLabel] = {None: ending} if ending else {}
+    for number, (thing, _, there) in enumerate(each):
+        if Region(there[0], there[1], 0.0, 0.0).is_within(sight):
+            key: int | str = number if many[thing.name] <= MAX_NAMED_COPIES else thing.name
+            said.setdefault(key, SceneLabel(thing.name, NAME_PIXELS, theme.ink, *there))
+    for text in said.values():
         high, wide = text.pixels * canvas.pixel, text_width(text.words, text.pixels * canvas.pen) * pixel
         middle = min(max(text.x, left + wide / 2), left + width * pixel - wide / 2)
         below = Region(middle - wide / 2, text.y - text.size / 2 - gap - high, wide, high)
@@ -139,21 +143,7 @@ def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int, ending
         canvas.text(place.left, place.low, text.words, text.pixels, text.colour, halo=theme.floor)
 
 
-def _named(
-    run: RecordedRun, each: Iterable[tuple[Thing, Colour, Floats]], sight: Region
-) -> Iterator[tuple[str, Floats]]:
-    """The name, place and size of each thing in sight that is named."""
-    many = Counter(thing.name for thing in run.contents)
-    named: set[str] = set()
-    for thing, _, place in each:
-        is_in_sight = Region(place[0], place[1], 0.0, 0.0).is_within(sight)
-        if is_in_sight and (thing.name not in named or many[thing.name] <= MAX_NAMED_COPIES):
-            named.add(thing.name)
-            yield thing.name, place
-
-
 def _places(below: Region, text: SceneLabel, gap: float) -> Iterator[Region]:
-    """The places for a name: below its thing, above, to the right or left of it, and then line by line farther."""
     above = below._replace(low=text.y + text.size / 2 + gap)
     yield from (below, above)
     level = below._replace(low=text.y - below.height / 2)

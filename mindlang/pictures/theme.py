@@ -4,7 +4,6 @@ Colour = tuple[int, int, int]  # blue, green, red, as OpenCV has them
 
 
 def colour(code: str) -> Colour:
-    """The colour of a code #rrggbb."""
     red, green, blue = bytes.fromhex(code.removeprefix("#"))
     return blue, green, red
 

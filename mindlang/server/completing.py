@@ -45,7 +45,7 @@ from mindlang.server.offers import (
     varying_parts,
     words,
 )
-from mindlang.server.places import SaidArgument, declaration_at, noun_of_kind, on_line, path_to, said_argument
+from mindlang.server.places import declaration_at, noun_of_kind, on_line, path_to, said_argument
 from mindlang.server.workspace import MindView, are_breakpoints
 
 MAX_OFFERED_FILES = 200  # that are offered
@@ -96,16 +96,13 @@ class CursorLine:
 
     @property
     def first(self) -> str:
-        """The word with which the line begins."""
         return self.code.split()[0]
 
     @property
     def owner(self) -> Declaration | None:
-        """The declaration of which the line is a fact; None where it is none."""
         return None if self.first in syntax.NOUNS else self.above
 
     def said(self, form: type[syntax.Reads | syntax.Sends]) -> set[str]:
-        """The names behind this verb on the other lines of the declaration above."""
         facts = syntax.of_form(self.above.facts, form) if self.above else []
         return {fact.name.text for fact in facts if not on_line(fact.span, self.offset)}
 
@@ -180,7 +177,6 @@ def _behind_words(line: CursorLine, accepted: set[str]) -> Iterator[Offer]:
 
 @cache
 def _literals() -> dict[str, tuple[str, ...]]:
-    """The words of the grammar by their sort."""
     patterns = {each.name: each.pattern for each in grammar().terminals}
     plain = {name: (each.value,) for name, each in patterns.items() if isinstance(each, PatternStr)}
     spelled = {name: said for name, said in plain.items() if said[0].isalpha()}
@@ -235,16 +231,13 @@ def _range_words(line: CursorLine, last: Sequence[Any], end: int) -> Iterator[Of
         match said.argument.value:
             case syntax.Numbers((_,)):
                 yield Offer("to", "word")
-            case syntax.Range(by=None) if said.meaning.shape == "list" or _has_schedule(said):
-                yield Offer("by", "word")
+            case syntax.Range(by=None):
+                # The size of what moves when it is reached may be a schedule, `3 to 1 by 0.1`.
+                keys = {each.key for each in named_arguments(kinds(said.noun)[said.kind])}
+                if said.meaning.shape == "list" or (said.argument.key.text == "size" and "reached" in keys):
+                    yield Offer("by", "word")
     if said and said.noun == "sensor" and said.argument.span.end == end:
         yield from words("or") if said.meaning and said.meaning.type == Reference("thing") else ()
-
-
-def _has_schedule(said: SaidArgument) -> bool:
-    """Tell whether an argument may be a schedule, `3 to 1 by 0.1`: the size of what moves when it is reached."""
-    takes = named_arguments(kinds(said.noun)[said.kind])
-    return said.argument.key.text == "size" and any(each.key == "reached" for each in takes)
 
 
 def _kinds(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
@@ -292,7 +285,6 @@ def _arguments(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
 
 
 def _task(line: CursorLine, fact: Any) -> Declaration | None:
-    """The task of whose things a line can speak, a lesson of those of its own; None for all."""
     if isinstance(fact, Teaches):
         return dict(line.view.whole.declarations("task")).get(fact.task.text)
     return line.owner
@@ -350,7 +342,6 @@ def _sayable(line: CursorLine, nodes: Sequence[Any], known: list[Offer]) -> list
 
 
 def _words(line: CursorLine, accepted: set[str]) -> Iterator[Offer]:
-    """The words of the language that mean something there."""
     is_like = bool(line.above and line.above.header.like)
     keys_too = {"AT", "ALONG", "OR", "OF"} if "NAME" in accepted else set[str]()  # arguments, which their kinds offer
     keys_too |= {"WITHIN"} if "AT" in accepted else set()

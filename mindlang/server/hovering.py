@@ -38,7 +38,6 @@ class Hover:
 
 
 def hover(view: MindView, path: Path, offset: int) -> Hover | None:
-    """The explanation of what stands at an offset."""
     file = view.file(path)
     if file is None:
         return None

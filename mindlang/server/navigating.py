@@ -2,34 +2,21 @@
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from functools import lru_cache
-from itertools import chain, islice
+from itertools import chain, islice, starmap
 from pathlib import Path
 
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
 from mindlang.compiler.references import Mention, introductions
 from mindlang.compiler.source import Source, Span
-from mindlang.compiler.syntax import Argument, Contains, File, Name, Phrase, Use
+from mindlang.compiler.syntax import Argument, Declaration, File, Name, Phrase, Use, of_form
 from mindlang.files import files_below, readable_text, within_read_limits
 from mindlang.server.places import path_to
 from mindlang.server.workspace import MindView, Workspace
 
 MAX_SYMBOLS = 500  # that are found
-CACHED_FILES = 1000  # files whose symbols are remembered
-
-
-@dataclass(frozen=True, slots=True)
-class Symbol:
-    """Something declared: its noun, its kind or scene, the lines about it, the name in them, and what it contains."""
-
-    noun: str
-    name: str
-    kind: str
-    whole: Span
-    place: Span
-    inner: tuple["Symbol", ...] = ()
+CACHED_FILES = 1000  # files whose declarations are remembered
 
 
 def definitions(view: MindView, path: Path, offset: int) -> list[Span]:
@@ -39,8 +26,7 @@ def definitions(view: MindView, path: Path, offset: int) -> list[Span]:
         return []
     if mention := view.mention_at(path, offset):
         return [found.name.span for found in _introduced(view, mention)]
-    used = (setting for setting in file.settings if isinstance(setting, Use))
-    for use in used:
+    for use in of_form(file.settings, Use):
         if use.span.start <= offset <= use.span.end:
             return _start_of(use.span.source.folder / use.path)
     return _procedure(file, offset)
@@ -75,20 +61,6 @@ def sharing(workspace: Workspace, view: MindView) -> Iterator[MindView]:
                 yield other
 
 
-def symbols(file: File) -> list[Symbol]:
-    """The declarations of a file, in its order."""
-    found = []
-    for declaration in file.declarations:
-        header = declaration.header
-        end = max([header.span, *(fact.span for fact in declaration.facts)], key=lambda span: span.end).end
-        things = (fact for fact in declaration.facts if isinstance(fact, Contains))
-        inner = (Symbol("thing", f.name.text, f.phrase.kind.text, f.span, f.name.span) for f in things)
-        whole = Span(file.source, header.span.start, end)
-        kind = header.phrase.kind.text if header.phrase else f"like {header.like.text}" if header.like else ""
-        found.append(Symbol(header.noun.text, header.name.text, kind, whole, header.name.span, tuple(inner)))
-    return found
-
-
 def _introduced(view: MindView, mention: Mention) -> Iterable[Mention]:
     """The places where a name is declared; of a thing in the task that names it, if that contains it."""
     same = [m for m in introductions(view.files) if (m.noun, m.name.text) == (mention.noun, mention.name.text)]
@@ -120,15 +92,15 @@ def _procedure(file: File, offset: int) -> list[Span]:
     return []
 
 
-def matching_symbols(workspace: Workspace, folders: Iterable[Path], query: str) -> list[Symbol]:
-    """The declarations whose names hold the letters of a query in their order, by file."""
+def matching_declarations(workspace: Workspace, folders: Iterable[Path], query: str) -> list[Declaration]:
+    """Those whose names hold the letters of a query in their order, by file."""
     paths = dict.fromkeys(chain(workspace.texts, (path for folder in folders for path in files_below(folder))))
     files = within_read_limits((path, workspace.text(path)) for path in paths)
     letters = re.compile(".*".join(map(re.escape, query)), re.IGNORECASE)
-    found = (symbol for path, text in files for symbol in _declared(path, text) if letters.search(symbol.name))
-    return list(islice(found, MAX_SYMBOLS))
+    declared = chain.from_iterable(starmap(_declared, files))
+    return list(islice((each for each in declared if letters.search(each.header.name.text)), MAX_SYMBOLS))
 
 
 @lru_cache(CACHED_FILES)
-def _declared(path: Path, text: str) -> tuple[Symbol, ...]:
-    return tuple(symbols(parse(Source(str(path), text, path.parent), Findings())))
+def _declared(path: Path, text: str) -> tuple[Declaration, ...]:
+    return parse(Source(str(path), text, path.parent), Findings()).declarations

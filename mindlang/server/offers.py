@@ -34,12 +34,10 @@ class Offer:
 
 
 def words(*labels: str) -> list[Offer]:
-    """Words of the language."""
     return [Offer(label, "word", text=_summary(label)) for label in labels]
 
 
 def units(*labels: str) -> list[Offer]:
-    """Units of a number."""
     return [Offer(label, "unit", _summary(label)) for label in labels]
 
 
@@ -49,7 +47,6 @@ def _summary(label: str) -> str:
 
 
 def names(view: MindView, *nouns: str) -> list[Offer]:
-    """Offers of the names that are declared with one of these nouns."""
     said = [(name, noun, each.header.span) for noun in nouns for name, each in view.names.declarations(noun)]
     said += [(name, "number", each.span) for name, each in view.names.numbers.items() if "number" in nouns]
     worlds = (each for noun in ("task", "scene") for _, each in view.names.declarations(noun) if "draw" in nouns)
@@ -58,7 +55,6 @@ def names(view: MindView, *nouns: str) -> list[Offer]:
 
 
 def kinds_of(noun: str) -> list[Offer]:
-    """The kinds of a noun with their documentation."""
     return [Offer(name, "kind", noun, markdown.article_card(kind_article(noun, name))) for name in sorted(kinds(noun))]
 
 
@@ -100,7 +96,6 @@ def keys(parameters: Iterable[Argument]) -> list[Offer]:
 
 
 def units_of(parameter: Argument) -> list[Offer]:
-    """The units that an argument takes."""
     return units(*filter(None, parameter.type.units)) if isinstance(parameter.type, Quantity) else []
 
 

@@ -16,17 +16,9 @@ from mindlang.compiler.source import Span
 
 def declaration_at(file: syntax.File, offset: int) -> syntax.Declaration | None:
     """The declaration to which a line at an offset belongs: the one whose header stands last before it."""
-    lines: list[tuple[int, syntax.Setting | syntax.Declaration]] = [
-        (setting.span.start, setting) for setting in file.settings
-    ]
-    lines += [(declaration.header.span.start, declaration) for declaration in file.declarations]
-    above = max((line for line in lines if line[0] <= offset), key=lambda line: line[0], default=(0, None))[1]
-    return above if isinstance(above, syntax.Declaration) else None
-
-
-def fact_at(declaration: syntax.Declaration, offset: int) -> syntax.Fact | None:
-    """The fact on whose line an offset lies."""
-    return next((fact for fact in declaration.facts if on_line(fact.span, offset)), None)
+    lines: dict[int, syntax.Declaration | None] = dict.fromkeys(each.span.start for each in file.settings)
+    lines |= {each.header.span.start: each for each in reversed(file.declarations)}  # of a family the first
+    return lines.get(max((start for start in lines if start <= offset), default=-1))
 
 
 def on_line(span: Span, offset: int) -> bool:

@@ -19,7 +19,7 @@ from mindlang.editing.apply import refuse_in_families
 from mindlang.editing.project import EditError, Project, has_outputs, kind_of
 from mindlang.lint.lint import apply_safe_fixes
 from mindlang.server.changing import proposed
-from mindlang.server.places import fact_at, on_line
+from mindlang.server.places import on_line
 from mindlang.server.workspace import MindView
 
 MAX_TARGETS = 6  # of each sort; the command line and the editor's own dialogue know them all
@@ -36,20 +36,19 @@ class Selection:
     end: int
 
     @property
+    def _own(self) -> tuple[Declaration, ...]:
+        file = self.project.paths.get(self.path)
+        return file.declarations if file else ()
+
+    @property
     def declarations(self) -> list[Declaration]:
-        """The declarations of the file whose headers are selected."""
         return [each for each in self._own if self.start <= each.header.span.start and each.header.span.end <= self.end]
 
     @property
     def declaration(self) -> Declaration | None:
         """The declaration on one of whose lines the selection begins."""
-        lines = ((each, span) for each in self._own for span in [each.header.span, *(f.span for f in each.facts)])
+        lines = ((each, line.span) for each in self._own for line in (each.header, *each.facts))
         return next((each for each, span in lines if on_line(span, self.start)), None)
-
-    @property
-    def _own(self) -> tuple[Declaration, ...]:
-        file = self.project.paths.get(self.path)
-        return file.declarations if file else ()
 
     def touches(self, fact: Fact) -> bool:
         """True if the selection begins on the line of a fact, or overlaps the fact."""
@@ -72,7 +71,7 @@ def proposals(selection: Selection) -> list[Proposal]:
     project, declaration = selection.project, selection.declaration
     found: list[Proposal] = []
     if declaration:
-        fact = fact_at(declaration, selection.start)
+        fact = next((each for each in declaration.facts if on_line(each.span, selection.start)), None)
         if fact and selection.start == selection.end:
             found += _of_fact(declaration, fact)
         if declaration.header.noun.text == "skill":
@@ -93,7 +92,6 @@ def _is_possible(project: Project, proposal: Proposal) -> bool:
 
 
 def _of_fact(declaration: Declaration, fact: Fact) -> Iterator[Proposal]:
-    """The edits of the fact on whose line the cursor is."""
     name = declaration.header.name.text
     if not isinstance(fact, Reads | Drives | Influences):
         arguments = {"what": [fact.span.text.strip()], "from_": name, "noun": declaration.header.noun.text}
@@ -117,7 +115,6 @@ def _of_lines(selection: Selection, skill: Declaration) -> Iterator[Proposal]:
 
 
 def _of_skill(project: Project, skill: Declaration) -> Iterator[Proposal]:
-    """The edits of the skill whose line this is."""
     name = skill.header.name.text
     yield Proposal(f"Let {name} be taught again", "unfreeze", {"skill": name})
     yield Proposal(f"Freeze {name}", "freeze", {"skill": name})
@@ -198,18 +195,14 @@ def _not_below(project: Project, skill: str) -> list[str]:
     return [name for name in influences if name not in taken]
 
 
-def _replacements(project: Project, skill: str) -> list[str]:
+def _replacements(project: Project, skill: str) -> Iterator[str]:
     """Skills that are not above it; those that drive other actuators are refused by the edit itself."""
     influences = project.mind.influences
     parents = set(influences.pred[skill])
-    higher = with_ancestors(influences, parents)
-    others = (
-        name
-        for name in influences
-        if name != skill
-        and (name not in higher or (name in parents and not (parents - {name}) & with_descendants(influences, [name])))
-    )
-    return [*islice(others, 8 * MAX_TARGETS)]
+    higher = with_ancestors(influences, parents) - {
+        name for name in parents if parents.isdisjoint(with_descendants(influences, [name]) - {name})
+    }
+    return islice((name for name in influences if name not in {skill, *higher}), 8 * MAX_TARGETS)
 
 
 def _lesson(project: Project, skill: str) -> dict[str, Any]:

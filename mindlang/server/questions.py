@@ -7,14 +7,12 @@ from pathlib import Path
 from lsprotocol import types
 
 from mindlang.compiler.format import format_splices
-from mindlang.compiler.source import Source, Span
-from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import Master, Teaches
+from mindlang.compiler.source import Span
+from mindlang.compiler.syntax import Contains, Declaration, Master, Teaches, of_form
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
-from mindlang.server.navigating import Symbol, definitions, highlights, matching_symbols, references, symbols
-from mindlang.server.offers import Offer
-from mindlang.server.server import LspConverter, MindServer
+from mindlang.server.navigating import definitions, highlights, matching_declarations, references
+from mindlang.server.server import EditorSession, MindServer
 from mindlang.server.workspace import MindView, are_breakpoints
 
 SYMBOL, ITEM = types.SymbolKind, types.CompletionItemKind
@@ -48,107 +46,111 @@ LOOKING_COMMANDS = {"Run": "run", "Bench": "bench", "View": "view"}  # a word ab
 
 
 def hovered(ls: MindServer, params: types.HoverParams) -> types.Hover | None:
-    """The explanation of what is under the mouse."""
-    found = hover(*ls.session.place(params.text_document.uri, params.position))
+    found = hover(*ls.session.place(params))
     if found is None:
         return None
     content = types.MarkupContent(types.MarkupKind.Markdown, found.text)
-    return types.Hover(content, ls.session.lsp.range(found.span))
+    return types.Hover(content, ls.session.range(found.span))
 
 
 def completed(ls: MindServer, params: types.CompletionParams) -> types.CompletionList:
-    """The completions at the cursor."""
-    view, path, offset = ls.session.place(params.text_document.uri, params.position)
-    text = ls.session.workspace.text(path)
-    found = complete(view, path, text, offset)
-    source = Source(str(path), text, path.parent)
-    edits = (ls.session.lsp.text_edit(Splice(source, found.start, offset, offer.label)) for offer in found.offers)
-    items = [_item(*each) for each in enumerate(zip(found.offers, edits, strict=True))]
+    view, path, offset = ls.session.place(params)
+    source = ls.session.source(path)
+    found = complete(view, path, source.text, offset)
+    where = ls.session.range(Span(source, found.start, offset))
+    items = [
+        types.CompletionItem(
+            offer.label,
+            kind=OFFERS[offer.sort],
+            detail=offer.detail or None,
+            documentation=types.MarkupContent(types.MarkupKind.Markdown, offer.text) if offer.text else None,
+            sort_text=f"{number:05}",
+            text_edit=types.TextEdit(where, offer.label),
+        )
+        for number, offer in enumerate(found.offers)
+    ]
     return types.CompletionList(is_incomplete=False, items=items)
 
 
 def asked_above(ls: MindServer, params: types.CodeLensParams) -> list[types.CodeLens]:
     """The code lenses of a file: commands of mindc above lines, which the editor runs in a terminal."""
-    path = ls.session.lsp.path(params.text_document.uri)
-    view = ls.session.workspace.view(path)
+    view, path = ls.session.asked(params)
     folder = str(view.main.parent)
     return [
         types.CodeLens(
-            ls.session.lsp.range(lens.span),
+            ls.session.range(lens.span),
             types.Command(lens.title, TERMINAL, arguments=[{"folder": folder, "words": list(lens.words)}]),
         )
         for lens in lenses(view, path)
     ]
 
 
-def _item(place: int, of: tuple[Offer, types.TextEdit]) -> types.CompletionItem:
-    offer, edit = of
-    return types.CompletionItem(
-        offer.label,
-        kind=OFFERS[offer.sort],
-        detail=offer.detail or None,
-        documentation=types.MarkupContent(types.MarkupKind.Markdown, offer.text) if offer.text else None,
-        sort_text=f"{place:05}",
-        text_edit=edit,
-    )
-
-
 def defined(ls: MindServer, params: types.DefinitionParams) -> list[types.Location]:
-    """The declaration of the name under the cursor."""
-    spans = definitions(*ls.session.place(params.text_document.uri, params.position))
-    return [ls.session.lsp.location(span) for span in spans]
+    spans = definitions(*ls.session.place(params))
+    return [ls.session.location(span) for span in spans]
 
 
 def referred(ls: MindServer, params: types.ReferenceParams) -> list[types.Location]:
-    """Every place where the name under the cursor stands."""
-    place = ls.session.place(params.text_document.uri, params.position)
+    place = ls.session.place(params)
     spans = references(ls.session.workspace, *place, with_declaration=params.context.include_declaration)
-    return [ls.session.lsp.location(span) for span in spans]
+    return [ls.session.location(span) for span in spans]
 
 
 def highlighted(ls: MindServer, params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
-    """Every place in this file where the name under the cursor stands."""
-    spans = highlights(*ls.session.place(params.text_document.uri, params.position))
-    return [types.DocumentHighlight(ls.session.lsp.range(span)) for span in spans]
+    spans = highlights(*ls.session.place(params))
+    return [types.DocumentHighlight(ls.session.range(span)) for span in spans]
 
 
 def outlined(ls: MindServer, params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
-    """The outline of a file."""
-    path = ls.session.lsp.path(params.text_document.uri)
-    file = ls.session.workspace.view(path).file(path)
-    return [_symbol(ls.session.lsp, symbol) for symbol in symbols(file)] if file else []
+    view, path = ls.session.asked(params)
+    file = view.file(path)
+    return [outline(ls.session, each) for each in file.declarations] if file else []
 
 
-def _symbol(lsp: LspConverter, symbol: Symbol) -> types.DocumentSymbol:
+def outline(session: EditorSession, declaration: Declaration) -> types.DocumentSymbol:
+    """A declaration from its header to the end of its last line, with the things that it contains."""
+    header = declaration.header
+    end = max(each.span.end for each in (header, *declaration.facts))
+    things = [
+        types.DocumentSymbol(
+            fact.name.text,
+            SORTS["thing"][0],
+            session.range(fact.span),
+            session.range(fact.name.span),
+            detail=f"thing {fact.phrase.kind.text}",
+            children=[],
+        )
+        for fact in of_form(declaration.facts, Contains)
+    ]
+    kind = header.phrase.kind.text if header.phrase else f"like {header.like.text}" if header.like else ""
     return types.DocumentSymbol(
-        symbol.name,
-        SORTS[symbol.noun][0],
-        lsp.range(symbol.whole),
-        lsp.range(symbol.place),
-        detail=f"{symbol.noun} {symbol.kind}".strip(),
-        children=[_symbol(lsp, inner) for inner in symbol.inner],
+        header.name.text,
+        SORTS[header.noun.text][0],
+        session.range(Span(header.span.source, header.span.start, end)),
+        session.range(header.name.span),
+        detail=f"{header.noun.text} {kind}".strip(),
+        children=things,
     )
 
 
 def searched(ls: MindServer, params: types.WorkspaceSymbolParams) -> list[types.WorkspaceSymbol]:
-    """The declarations of all files whose names match a query."""
-    folders = [ls.session.lsp.path(uri) for uri in ls.workspace.folders]
-    if not folders and ls.workspace.root_uri:
-        folders = [ls.session.lsp.path(ls.workspace.root_uri)]
+    roots = [*ls.workspace.folders] or [*filter(None, [ls.workspace.root_uri])]
+    found = matching_declarations(ls.session.workspace, map(ls.session.path, roots), params.query)
     return [
         types.WorkspaceSymbol(
-            ls.session.lsp.location(symbol.place), symbol.name, SORTS[symbol.noun][0], container_name=symbol.noun
+            ls.session.location(header.name.span),
+            header.name.text,
+            SORTS[header.noun.text][0],
+            container_name=header.noun.text,
         )
-        for symbol in matching_symbols(ls.session.workspace, folders, params.query)
+        for header in (each.header for each in found)
     ]
 
 
 def formatted(ls: MindServer, params: types.DocumentFormattingParams) -> list[types.TextEdit]:
-    """The file as it should be written."""
-    path = ls.session.lsp.path(params.text_document.uri)
-    source = Source(str(path), ls.session.workspace.text(path), path.parent)
-    splices = format_splices(source, "stop" if are_breakpoints(path) else "line")
-    return [ls.session.lsp.text_edit(splice) for splice in splices]
+    path = ls.session.path(params.text_document.uri)
+    splices = format_splices(ls.session.source(path), "stop" if are_breakpoints(path) else "line")
+    return [ls.session.text_edit(splice) for splice in splices]
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,9 +177,7 @@ def lenses(view: MindView, path: Path) -> list[Lens]:
             if view.names.of("curriculum"):
                 found.append(Lens(setting.span, DUE_TITLE, ("train", view.main.name)))
             found += _looks(view, setting.span)
-    lessons = [
-        fact for each in view.files for of in each.declarations for fact in of.facts if isinstance(fact, Teaches)
-    ]
+    lessons = [each for file in view.files for of in file.declarations for each in of_form(of.facts, Teaches)]
     for header in (declaration.header for declaration in file.declarations):
         name = header.name.text
         match header.noun.text:

@@ -12,7 +12,6 @@ from lsprotocol import types
 from mindrun.errors import MindError
 from pygls.exceptions import JsonRpcException
 
-from mindlang.compiler.diagnostic import Diagnostic, Fix
 from mindlang.compiler.families import is_of_family
 from mindlang.compiler.references import Mention
 from mindlang.compiler.source import Source, Span
@@ -31,9 +30,8 @@ KINDS = ("quickfix", "refactor", "refactor.rewrite", "refactor.extract", "refact
 
 
 def make() -> MindServer:
-    """A server that answers."""
     server = MindServer()
-    for feature, answer, *options in (*TOLD, *CHANGES, *QUESTIONS):
+    for feature, answer, *options in (*CHANGES, *QUESTIONS):
         server.feature(feature, *options)(answer)
     server.command(EDIT)(edited)
     server.command(EDITS)(catalog)
@@ -55,8 +53,12 @@ def _is_fault(record: logging.LogRecord) -> bool:
 
 
 def begin(ls: MindServer, params: types.InitializeParams) -> None:
-    """Count columns as the editor does."""
-    ls.session.lsp.codec = ls.workspace.position_codec
+    """Count columns as the editor does, and make only edits that it takes: not all can make files and name versions."""
+    workspace = params.capabilities.workspace
+    edits = workspace.workspace_edit if workspace else None
+    operations = edits.resource_operations or () if edits and edits.document_changes else ()
+    ls.session.codec = ls.workspace.position_codec
+    ls.session.plain = types.ResourceOperationKind.Create not in operations
 
 
 async def watch(ls: MindServer, params: types.InitializedParams) -> None:
@@ -88,7 +90,7 @@ def changed(ls: MindServer, params: types.DidChangeTextDocumentParams) -> None:
 
 def saved(ls: MindServer, params: types.DidSaveTextDocumentParams) -> None:
     """A file has been saved: the locks of an edit may follow now."""
-    for message in ls.session.saved(ls.session.lsp.path(params.text_document.uri)):
+    for message in ls.session.saved(ls.session.path(params.text_document.uri)):
         ls.say(message)
     ls.check_soon()
 
@@ -112,7 +114,7 @@ def shut_down(ls: MindServer, params: None) -> None:
 
 def prepared(ls: MindServer, params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder | None:
     """The name at a place and its range, None where none is; refused where the mind does not compile."""
-    view, path, offset = ls.session.place(params.text_document.uri, params.position)
+    view, path, offset = ls.session.place(params)
     mention = view.mention_at(path, offset)
     if mention is None:
         return None
@@ -120,7 +122,7 @@ def prepared(ls: MindServer, params: types.PrepareRenameParams) -> types.Prepare
         project(ls.session.workspace, view)
     except EditError as error:
         raise failed(error) from error
-    return types.PrepareRenamePlaceholder(ls.session.lsp.range(mention.name.span), _name_of(mention))
+    return types.PrepareRenamePlaceholder(ls.session.range(mention.name.span), _name_of(mention))
 
 
 def _name_of(mention: Mention) -> str:
@@ -130,7 +132,7 @@ def _name_of(mention: Mention) -> str:
 
 def renamed(ls: MindServer, params: types.RenameParams) -> types.WorkspaceEdit | None:
     """Rename something wherever it is named, in neighbours too."""
-    view, path, offset = ls.session.place(params.text_document.uri, params.position)
+    view, path, offset = ls.session.place(params)
     mention = view.mention_at(path, offset)
     if mention is None or params.new_name == mention.name.text:
         return None
@@ -144,16 +146,17 @@ def renamed(ls: MindServer, params: types.RenameParams) -> types.WorkspaceEdit |
 
 
 def acted(ls: MindServer, params: types.CodeActionParams) -> list[types.CodeAction]:
-    """The quick fixes and the edits at a selection."""
-    view, path, start = ls.session.place(params.text_document.uri, params.range.start)
-    end = ls.session.lsp.offset(ls.session.workspace.text(path), params.range.end)
+    view, path = ls.session.asked(params)
+    source = ls.session.source(path)
+    start, end = (ls.session.offset(source.text, place) for place in (params.range.start, params.range.end))
     wanted = params.context.only
     actions: list[types.CodeAction] = []
     if _wants(wanted, "quickfix"):
-        actions += [_mending(ls, *each) for each in mendings(view, path, start, end)]
+        for found, fix in mendings(view, path, start, end):
+            edit, about = ls.session.workspace_edit(fix.splices, {}), [ls.session.diagnostic(found)]
+            actions.append(types.CodeAction(fix.title, "quickfix", about, is_preferred=fix.is_safe, edit=edit))
     if _wants(wanted, FIX_ALL) and (text := all_mended(view, path, ls.session.workspace.texts)) is not None:
-        source = Source(str(path), ls.session.workspace.text(path), path.parent)
-        edit = ls.workspace_edit((Splice(source, 0, len(source.text), text),))
+        edit = ls.session.workspace_edit((Splice(source, 0, len(source.text), text),), {})
         actions.append(types.CodeAction("Make all safe fixes", kind=FIX_ALL, edit=edit))
     if _wants(wanted, "refactor") and view.compiled.graph:
         selection = Selection(project(ls.session.workspace, view), path, start, end)
@@ -170,23 +173,13 @@ def _wants(only: Any, kind: str) -> bool:
     return not asked or any(f"{kind}.".startswith(f"{each}.") or f"{each}.".startswith(f"{kind}.") for each in asked)
 
 
-def _mending(ls: MindServer, found: Diagnostic, fix: Fix) -> types.CodeAction:
-    return types.CodeAction(
-        fix.title,
-        kind="quickfix",
-        diagnostics=[ls.session.lsp.diagnostic(found)],
-        is_preferred=fix.is_safe,
-        edit=ls.workspace_edit(fix.splices),
-    )
-
-
 async def edited(ls: MindServer, *arguments: Any) -> types.Location | None:
     """Make an edit: the URI of a file, the name of the edit, its arguments, and a name in them to be chosen anew.
 
     The answer is where that name stands, so that the editor can let the user rename it.
     """
     uri, name, said, fresh = (*arguments, "", "", {}, "")[: max(4, len(arguments))][:4]
-    path = ls.session.lsp.path(str(uri))
+    path = ls.session.path(str(uri))
     try:
         outcome, edit = ls.outcome(path, str(name), said if isinstance(said, dict) else {})
     except MindError as error:
@@ -207,7 +200,7 @@ def _place_of(ls: MindServer, outcome: EditOutcome, fresh: str) -> types.Locatio
         text = spliced(source, outcome.change.splices)
         at = text.find(f" {fresh} ") + 1 if fresh else 0
         if at:
-            return ls.session.lsp.location(Span(Source(source.name, text, source.folder), at, at + len(fresh)))
+            return ls.session.location(Span(Source(source.name, text, source.folder), at, at + len(fresh)))
     return None
 
 
@@ -226,7 +219,7 @@ def catalog(ls: MindServer, *arguments: Any) -> list[dict[str, Any]]:
     ]
 
 
-TOLD = (
+CHANGES = (
     (types.INITIALIZE, begin),
     (types.INITIALIZED, watch),
     (types.TEXT_DOCUMENT_DID_OPEN, opened),
@@ -235,8 +228,6 @@ TOLD = (
     (types.TEXT_DOCUMENT_DID_CLOSE, closed),
     (types.WORKSPACE_DID_CHANGE_WATCHED_FILES, changed_outside),
     (types.SHUTDOWN, shut_down),
-)
-CHANGES = (
     (types.TEXT_DOCUMENT_PREPARE_RENAME, prepared),
     (types.TEXT_DOCUMENT_RENAME, renamed, types.RenameOptions(prepare_provider=True)),
     (types.TEXT_DOCUMENT_CODE_ACTION, acted, types.CodeActionOptions(code_action_kinds=list(KINDS))),

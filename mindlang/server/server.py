@@ -32,94 +32,10 @@ MAX_PENDING_EDITS = 8  # edits whose locks are looked after
 MAX_PUBLISHED_DIAGNOSTICS = 1000  # findings in a file
 TYPING_PAUSE_SECONDS = 0.15  # seconds without typing, after which a text is checked
 REQUEST_FAILED = -32803  # RequestFailed
-NOTHING_CREATED: Mapping[Path, str] = {}
 SEVERITIES = {"error": types.DiagnosticSeverity.Error, "warning": types.DiagnosticSeverity.Warning}
+BEGINNING = types.Range(types.Position(0, 0), types.Position(0, 0))
 CACHED_TEXTS = 16  # whose lines and columns are remembered
 _LINE_END = re.compile(r"\r\n|\n|\r")
-
-
-@dataclass
-class LspConverter:
-    """Converts paths and offsets for one editor: its URIs, and the units that its columns count."""
-
-    codec: PositionCodec = field(default_factory=PositionCodec)
-    uris: dict[Path, str] = field(default_factory=dict)  # of the open files, as the editor says them
-    versions: dict[Path, int] = field(default_factory=dict)
-
-    def path(self, uri: str) -> Path:
-        """The path that a URI stands for; one that is no file has a path where no file is."""
-        name = to_fs_path(uri)
-        return Path(name).resolve() if name else Path("/", ".untitled", quote(uri, safe=""))
-
-    def uri(self, path: Path) -> str:
-        """The URI of a file."""
-        return self.uris.get(path) or from_fs_path(str(path)) or ""
-
-    def offset(self, text: str, position: types.Position) -> int:
-        """The offset of a position; one behind the end of its line, or of the text, is that end."""
-        starts = line_starts(text)
-        if position.line >= len(starts):
-            return len(text)
-        start, end = [*starts, len(text)][position.line : position.line + 2]
-        units, length = units_before(text, self.codec), len(text[start:end].rstrip("\r\n"))
-        return bisect_left(units, units[start] + position.character, start, start + length)
-
-    def position(self, text: str, offset: int) -> types.Position:
-        """The position of an offset."""
-        starts, units = line_starts(text), units_before(text, self.codec)
-        line = bisect_right(starts, offset) - 1
-        return types.Position(line, units[offset] - units[starts[line]])
-
-    def range(self, span: Span) -> types.Range:
-        """A span as a range."""
-        text = span.source.text
-        return types.Range(self.position(text, span.start), self.position(text, span.end))
-
-    def location(self, span: Span) -> types.Location:
-        """A span with its file."""
-        return types.Location(self.uri(span.source.path), self.range(span))
-
-    def diagnostic(self, found: Diagnostic) -> types.Diagnostic:
-        """A finding; one whose fix takes it out is of something unnecessary."""
-        empty = types.Range(types.Position(0, 0), types.Position(0, 0))
-        is_removed = found.fix is not None and found.fix.title.startswith("Remove")
-        return types.Diagnostic(
-            self.range(found.span) if found.span else empty,
-            f"{found.message}\n{found.hint}".strip(),
-            SEVERITIES.get(found.severity, types.DiagnosticSeverity.Information),
-            code=found.code or None,
-            source="mindc",
-            tags=[types.DiagnosticTag.Unnecessary] if is_removed else None,
-            related_information=[
-                types.DiagnosticRelatedInformation(self.location(label.span), label.message) for label in found.labels
-            ]
-            or None,
-        )
-
-    def text_edit(self, splice: Splice) -> types.TextEdit:
-        """A splice of one file."""
-        return types.TextEdit(self.range(Span(splice.source, splice.start, splice.end)), splice.text)
-
-    def workspace_edit(
-        self, splices: Iterable[Splice], created: Mapping[Path, str], plain: bool
-    ) -> types.WorkspaceEdit:
-        """Splices of several files, and new files; `plain` where the editor knows no more than texts that change."""
-        by_path: dict[Path, list[types.TextEdit]] = {}
-        for splice in splices:
-            by_path.setdefault(splice.source.path, []).append(self.text_edit(splice))
-        if plain:
-            return types.WorkspaceEdit(changes={self.uri(path): edits for path, edits in by_path.items()})
-        changes: list[types.TextDocumentEdit | types.CreateFile | types.RenameFile | types.DeleteFile] = []
-        for path, text in created.items():
-            changes.append(types.CreateFile(self.uri(path)))
-            start = types.Range(types.Position(0, 0), types.Position(0, 0))
-            changes.append(self._document_edit(path, [types.TextEdit(start, text)]))
-        changes += [self._document_edit(path, edits) for path, edits in by_path.items()]
-        return types.WorkspaceEdit(document_changes=changes)
-
-    def _document_edit(self, path: Path, edits: list[types.TextEdit]) -> types.TextDocumentEdit:
-        document = types.OptionalVersionedTextDocumentIdentifier(self.uri(path), self.versions.get(path))
-        return types.TextDocumentEdit(document, list(edits))
 
 
 @lru_cache(CACHED_TEXTS)
@@ -139,38 +55,112 @@ def units_before(text: str, codec: PositionCodec) -> Sequence[int]:
 
 @dataclass
 class EditorSession:
-    """The state of one editor: open files, reported findings, and pending renames of locks."""
+    """The state of one editor: the units that its columns count, open files, reported findings, pending renames.
 
+    `uris` and `versions` are of the open files, as the editor says them; where it is `plain`, it knows no more of edits
+    than texts that change. The methods convert paths, offsets and spans for this editor, and back.
+    """
+
+    codec: PositionCodec = field(default_factory=PositionCodec)
+    plain: bool = True
     workspace: Workspace = field(default_factory=Workspace)
-    lsp: LspConverter = field(default_factory=LspConverter)
+    uris: dict[Path, str] = field(default_factory=dict)
+    versions: dict[Path, int] = field(default_factory=dict)
     following: list[PendingRename] = field(default_factory=list)
     _told: dict[Path, Report] = field(default_factory=dict)
 
+    def path(self, uri: str) -> Path:
+        """The path that a URI stands for; one that is no file has a path where no file is."""
+        name = to_fs_path(uri)
+        return Path(name).resolve() if name else Path("/", ".untitled", quote(uri, safe=""))
+
+    def uri(self, path: Path) -> str:
+        return self.uris.get(path) or from_fs_path(str(path)) or ""
+
+    def source(self, path: Path) -> Source:
+        """The text of a file as it is now."""
+        return Source(str(path), self.workspace.text(path), path.parent)
+
+    def asked(self, params: Any) -> tuple[MindView, Path]:
+        """The mind of the file that a request is about, and its path."""
+        path = self.path(params.text_document.uri)
+        return self.workspace.view(path), path
+
+    def place(self, params: Any) -> tuple[MindView, Path, int]:
+        """The mind of the file that a request is about, its path, and the offset of the position in it."""
+        view, path = self.asked(params)
+        return view, path, self.offset(self.workspace.text(path), params.position)
+
+    def offset(self, text: str, position: types.Position) -> int:
+        """The offset of a position; one behind the end of its line, or of the text, is that end."""
+        starts = line_starts(text)
+        if position.line >= len(starts):
+            return len(text)
+        start, end = [*starts, len(text)][position.line : position.line + 2]
+        units, length = units_before(text, self.codec), len(text[start:end].rstrip("\r\n"))
+        return bisect_left(units, units[start] + position.character, start, start + length)
+
+    def position(self, text: str, offset: int) -> types.Position:
+        starts, units = line_starts(text), units_before(text, self.codec)
+        line = bisect_right(starts, offset) - 1
+        return types.Position(line, units[offset] - units[starts[line]])
+
+    def range(self, span: Span | Splice) -> types.Range:
+        text = span.source.text
+        return types.Range(self.position(text, span.start), self.position(text, span.end))
+
+    def location(self, span: Span) -> types.Location:
+        return types.Location(self.uri(span.source.path), self.range(span))
+
+    def diagnostic(self, found: Diagnostic) -> types.Diagnostic:
+        """A finding; one whose fix takes it out is of something unnecessary."""
+        is_removed = found.fix is not None and found.fix.title.startswith("Remove")
+        related = [types.DiagnosticRelatedInformation(self.location(each.span), each.message) for each in found.labels]
+        return types.Diagnostic(
+            self.range(found.span) if found.span else BEGINNING,
+            f"{found.message}\n{found.hint}".strip(),
+            SEVERITIES.get(found.severity, types.DiagnosticSeverity.Information),
+            code=found.code or None,
+            source="mindc",
+            tags=[types.DiagnosticTag.Unnecessary] if is_removed else None,
+            related_information=related or None,
+        )
+
+    def text_edit(self, splice: Splice) -> types.TextEdit:
+        return types.TextEdit(self.range(splice), splice.text)
+
+    def workspace_edit(self, splices: Iterable[Splice], created: Mapping[Path, str]) -> types.WorkspaceEdit:
+        """Splices of several files, and new files, as the editor takes them."""
+        edits = {path: [types.TextEdit(BEGINNING, text)] for path, text in created.items()}
+        for splice in splices:
+            edits.setdefault(splice.source.path, []).append(self.text_edit(splice))
+        if self.plain:
+            return types.WorkspaceEdit(changes={self.uri(path): each for path, each in edits.items()})
+        changes: list[types.TextDocumentEdit | types.CreateFile | types.RenameFile | types.DeleteFile] = [
+            types.CreateFile(self.uri(path)) for path in created
+        ]
+        for path, each in edits.items():
+            document = types.OptionalVersionedTextDocumentIdentifier(self.uri(path), self.versions.get(path))
+            changes.append(types.TextDocumentEdit(document, [*each]))
+        return types.WorkspaceEdit(document_changes=changes)
+
     def set(self, uri: str, version: int, text: str) -> None:
-        """Set the text that a file has now."""
-        path = self.lsp.path(uri)
-        self.lsp.uris[path], self.lsp.versions[path] = uri, version
-        self.workspace.texts[path] = text
+        path = self.path(uri)
+        self.uris[path], self.versions[path], self.workspace.texts[path] = uri, version, text
 
     def close(self, uri: str) -> None:
-        """A file is no longer open."""
-        path = self.lsp.path(uri)
+        path = self.path(uri)
         self.workspace.close(path)
-        self.lsp.versions.pop(path, None)
-        self.lsp.uris.pop(path, None)
-
-    def place(self, uri: str, position: types.Position) -> tuple[MindView, Path, int]:
-        """The mind of a file, its path, and the offset of a position in it."""
-        path = self.lsp.path(uri)
-        return self.workspace.view(path), path, self.lsp.offset(self.workspace.text(path), position)
+        self.versions.pop(path, None)
+        self.uris.pop(path, None)
 
     def news(self) -> Iterator[types.PublishDiagnosticsParams]:
         """The findings that have changed since the last report: by file, empty for files that have none now."""
         found = self._findings_by_file()
         for path in [*found, *(path for path in self._told if path not in found)]:
-            now = self.lsp.versions.get(path), [self.lsp.diagnostic(each) for each in found.get(path, ())]
+            now = self.versions.get(path), [self.diagnostic(each) for each in found.get(path, ())]
             if self._told.get(path) != now:
-                yield types.PublishDiagnosticsParams(self.lsp.uri(path), now[1], now[0])
+                yield types.PublishDiagnosticsParams(self.uri(path), now[1], now[0])
             self._told[path] = now
         self._told = {path: report for path, report in self._told.items() if report[1] or path in found}
 
@@ -183,19 +173,11 @@ class EditorSession:
                 place = (each.span.start, each.span.end) if each.span else (0, 0)
                 found.setdefault(path, {}).setdefault((*place, each.code, each.message), each)
         by_file = {path: [*each.values()] for path, each in found.items()}
-        by_file |= {path: self._stop_findings(path) for path in self.workspace.texts if are_breakpoints(path)}
+        for path in filter(are_breakpoints, self.workspace.texts):
+            mind = self.workspace.view(path).compiled
+            subject = subject_of_mind(mind) if mind.graph else None  # of one that does not compile no names are known
+            by_file[path] = [*breakpoints_of(self.source(path), subject).diagnostics]
         return {path: _first(path, each) for path, each in by_file.items()}
-
-    def _stop_findings(self, path: Path) -> list[Diagnostic]:
-        """The diagnostics of a .break file; no names are looked for in a mind that does not compile."""
-        mind = self.workspace.view(path).compiled
-        subject = subject_of_mind(mind) if mind.graph else None
-        return [*breakpoints_of(Source(str(path), self.workspace.text(path), path.parent), subject).diagnostics]
-
-    def follow(self, following: PendingRename | None) -> None:
-        """Let locks follow an edit once its files are saved."""
-        if following:
-            self.following = [*self.following, following][-MAX_PENDING_EDITS:]
 
     def saved(self, path: Path) -> Iterator[str]:
         """A file lies on the disk as it is; what there is to say of the locks that have followed."""
@@ -210,16 +192,14 @@ class EditorSession:
 
 def _first(path: Path, found: list[Diagnostic]) -> list[Diagnostic]:
     """The first findings of a file, and how many more there are: nobody reads them all, and editors wait for them."""
-    if len(found) <= MAX_PUBLISHED_DIAGNOSTICS:
+    if (more := len(found) - MAX_PUBLISHED_DIAGNOSTICS) <= 0:
         return found
-    more = Diagnostic(
-        "", f"There are {len(found) - MAX_PUBLISHED_DIAGNOSTICS} more findings in {path.name}.", severity="warning"
-    )
-    return [*found[:MAX_PUBLISHED_DIAGNOSTICS], more]
+    told = Diagnostic("", f"There are {more} more findings in {path.name}.", severity="warning")
+    return [*found[:MAX_PUBLISHED_DIAGNOSTICS], told]
 
 
 class MindServer(LanguageServer):
-    """The language server of one editor: its session, its requests and its messages."""
+    """The language server of one editor: its session, and what it says without being asked."""
 
     def __init__(self) -> None:
         sync = types.TextDocumentSyncKind.Full
@@ -235,40 +215,25 @@ class MindServer(LanguageServer):
         self._due = asyncio.get_running_loop().call_later(TYPING_PAUSE_SECONDS, self.check)
 
     def check(self) -> None:
-        """Say what is new about the open files."""
         if self._due:
             self._due.cancel()
         for news in self.session.news():
             self.text_document_publish_diagnostics(news)
 
     def say(self, message: str, type_: types.MessageType = types.MessageType.Info) -> None:
-        """Show the user a message."""
         self.window_show_message(types.ShowMessageParams(type_, message))
-
-    @property
-    def knows_documents(self) -> bool:
-        """True if the editor takes edits that make files and name versions of texts."""
-        workspace = self.client_capabilities.workspace
-        edits = workspace.workspace_edit if workspace else None
-        made = types.ResourceOperationKind.Create in (edits.resource_operations or ()) if edits else False
-        return bool(edits and edits.document_changes and made)
 
     def outcome(self, path: Path, name: str, arguments: dict[str, Any]) -> tuple[EditOutcome, types.WorkspaceEdit]:
         """An edit made in memory, and as the editor takes it; MindError where it is impossible."""
         outcome = perform(self.session.workspace, path, name, arguments)
-        if outcome.change.created and not self.knows_documents:
+        if outcome.change.created and self.session.plain:
             raise MindError("This editor cannot make files.", f"On the command line: mindc edit {name}")
-        return outcome, self.workspace_edit(outcome.change.splices, outcome.change.created)
-
-    def workspace_edit(
-        self, splices: Iterable[Splice], created: Mapping[Path, str] = NOTHING_CREATED
-    ) -> types.WorkspaceEdit:
-        """Splices of several files, and new files, as the editor takes them."""
-        return self.session.lsp.workspace_edit(splices, created, not self.knows_documents)
+        return outcome, self.session.workspace_edit(outcome.change.splices, outcome.change.created)
 
     def done(self, outcome: EditOutcome) -> None:
-        """Say what an edit does to weights, and let the locks follow it."""
-        self.session.follow(outcome.following)
+        """Say what an edit does to weights, and let the locks follow it once its files are saved."""
+        if outcome.following:
+            self.session.following = [*self.session.following, outcome.following][-MAX_PENDING_EDITS:]
         if outcome.sentences:
             self.say(". ".join(outcome.sentences) + ".")
 

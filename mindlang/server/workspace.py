@@ -27,7 +27,6 @@ Texts = Mapping[Path, str]
 
 
 def are_breakpoints(path: Path) -> bool:
-    """True if a file of this name has breakpoints, and no mind."""
     return path.suffix == SUFFIX
 
 
@@ -42,11 +41,9 @@ class MindView:
 
     @property
     def paths(self) -> list[Path]:
-        """The paths of the files."""
         return [file.source.path for file in self.files]
 
     def file(self, path: Path) -> File | None:
-        """The file at a path, if it is one of these."""
         return next((file for file in self.files if file.source.path == path), None)
 
     @cached_property
@@ -71,23 +68,21 @@ class MindView:
         from mindlang.lint.settings import settings_of
 
         settings = settings_of(self.main)
+        # What is wrong in another file is said on the first line of the mind's own, which an editor has open.
+        here = Span(self.compiled.sources[0], 0, 0) if self.compiled.sources else None
         try:
             found = lint(self.compiled, settings.codes(self.main))
-            return (*map(self._in_first_line, settings.wrong), *found)
         except MindError as error:
-            where = Span(self.compiled.sources[0], 0, 0)
-            damage = Diagnostic("damaged-lock", f"{error}.", where, error.hint, severity="warning")
+            damage = Diagnostic("damaged-lock", f"{error}.", here, error.hint, severity="warning")
             return (*self.compiled.diagnostics, damage)
-
-    def _in_first_line(self, diagnostic: Diagnostic) -> Diagnostic:
-        """A warning about another file, on the first line of the mind's own, which an editor has open."""
-        where = f"{diagnostic.span.source.name}:{diagnostic.span.line}: " if diagnostic.span else ""
-        here = Span(self.compiled.sources[0], 0, 0) if self.compiled.sources else None
-        return replace(diagnostic, message=f"{where}{diagnostic.message}", span=here, severity="warning")
+        wrong = []
+        for each in settings.wrong:
+            where = f"{each.span.source.name}:{each.span.line}: " if each.span else ""
+            wrong.append(replace(each, message=f"{where}{each.message}", span=here, severity="warning"))
+        return (*wrong, *found)
 
 
 def view(main: Path, texts: Texts) -> MindView:
-    """The mind whose main file stands at a path; files in `texts` are taken from there."""
     compiled = load(main, texts)
     if compiled.mind:
         found = compiled.mind.files
@@ -112,16 +107,13 @@ class Workspace:
         self._mains.clear()
 
     def close(self, path: Path) -> None:
-        """A file is no longer open: it is what lies on the disk."""
         self.texts.pop(path, None)
         self.forget()
 
     def view(self, path: Path) -> MindView:
-        """The mind to which a file belongs."""
         return self.mind(self.main_of(path))
 
     def mind(self, main: Path) -> MindView:
-        """The mind whose main file this is."""
         known = self._views.get(main)
         if known is None or not self._is_now(*known):
             made = view(main, self.texts)

@@ -13,13 +13,14 @@ from mindrun.sim.task_rows import opened_boxes, things_of
 from mindlang.pictures.scene import half_sides, thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, code
 from mindlang.run import outcome
+from mindlang.run.promises import VERDICTS
 from mindlang.view.messages import shown
 from mindlang.view.rows import Columns
-from mindlang.view.viewed_promises import PROMISE_COLUMNS
 
 Texts = Mapping[tuple[str, str], str]  # what a line says, by the names of its skill and of whom it is for
 Data = dict[str, Any]
 TOUCH, COLLISION = "touch", "collision"  # kinds of events
+PROMISE_COLUMNS = 1 + len(VERDICTS)  # of each promise: the verdict in a tick, and how often each came so far
 
 
 class PlacedNode(NamedTuple):
@@ -105,7 +106,6 @@ def _hierarchy(graph: Graph, master: str, skills: Sequence[Skill], columns: Colu
 
 
 def _promises(skills: Sequence[Skill], columns: Columns) -> dict[str, list[Data]]:
-    """What each skill promises: its text, and the columns of its verdict and of how often it was held or broken."""
     promises = [(skill.name, promise) for skill in skills for promise in skill.promises]
     found: dict[str, list[Data]] = {}
     for number, (skill, promise) in enumerate(promises):
@@ -117,11 +117,11 @@ def _promises(skills: Sequence[Skill], columns: Columns) -> dict[str, list[Data]
 
 def order_data(graph: Graph) -> list[Data]:
     """The orders that the mind takes: the name of each, its node, and of what it is one."""
-    found = [(node, each.name, each.kind) for node, each in enumerate(graph.sensors) if each.kind.is_order]
-    kinds: list[tuple[int, str, Any]] = [*found]
+    kinds: dict[int, Any] = {node: each.kind for node, each in enumerate(graph.sensors) if each.kind.is_order}
     return [
-        {"name": name, "node": node, "choices": kind.choices, "low": kind.order.first, "high": kind.order.last}
-        for node, name, kind in kinds
+        {"name": graph.sensors[node].name, "node": node, "choices": kind.choices}
+        | {"low": kind.order.first, "high": kind.order.last}
+        for node, kind in kinds.items()
     ]
 
 
@@ -228,7 +228,6 @@ def world_event_data(task: Task) -> list[dict[str, str]]:
 
 
 def robot_event_data(of: About) -> list[dict[str, str]]:
-    """The texts and kinds of what happens to a robot."""
     return [
         {"text": "stopped", "kind": "stopped"},
         {"text": "began anew", "kind": "begin"},

@@ -111,7 +111,6 @@ def _policy(script: str, style: str) -> str:
 
 
 def _inert(data: dict[str, Any]) -> str:
-    """JSON in which no tag of HTML can stand."""
     return json.dumps(data, allow_nan=False).replace("<", "\\u003c")
 
 

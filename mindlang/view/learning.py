@@ -52,7 +52,6 @@ class LearntRun:
     _stamps: tuple[Stamp, ...] = ()
 
     def read(self) -> bool:
-        """Read what has come since the last time; True if there was something."""
         stamps = tuple(stamp(self.run.folder / name) for name in GROWING)
         if stamps == self._stamps:
             return False
@@ -104,7 +103,6 @@ class Learning:
     _minds: dict[Path, tuple[Subject, Texts]] = field(default_factory=dict)  # compiled once for each run
 
     def read(self) -> bool:
-        """Look for new runs and read all of them; True if something has come."""
         grown = [run.read() for run in self.runs]
         known = {run.run.folder for run in self.runs}
         found = [LearntRun(run) for run in _runs(self.path, known)]
@@ -151,7 +149,6 @@ class Learning:
         return viewed
 
     def rollout(self, number: int) -> Rollout:
-        """The simulator of a run, for compiling it before anybody waits."""
         learnt = self.runs[number]
         return self._setup(learnt.run, learnt.champions[-1].genome)[0].rollout()
 

@@ -34,11 +34,9 @@ class Group:
 
     @property
     def places(self) -> range:
-        """Where they are in their block."""
         return range(self.first, self.first + self.count)
 
     def column(self, number: int) -> list[int]:
-        """The address of one of its columns."""
         return [self.block, self.first + number]
 
 
@@ -57,12 +55,10 @@ class Columns(dict[str, Group]):
         return found
 
     def width(self, block: int) -> int:
-        """How many columns a block has."""
         return sum(group.count for group in self.values() if group.block == block)
 
     @property
     def kept_singles(self) -> int:
-        """How many columns of the singles are kept."""
         return self[FLOW].first
 
 

@@ -70,7 +70,6 @@ class PendingConnection(ServerConnection):
             self._pending.pop(0).transport.abort()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Close it and count it as pending no longer."""
         super().connection_lost(exc)
         with suppress(ValueError):  # it has said the token, or was closed
             self._pending.remove(self)
@@ -182,7 +181,6 @@ class ViewServer:
         return isinstance(first, str) and hmac.compare_digest(first.encode(errors="replace"), self.token.encode())
 
     async def _listen(self, viewer: Viewer) -> None:
-        """Answer one message after the other."""
         async for text in viewer.connection:
             try:
                 answer = await self._session.answer(message(text), viewer.edits)

@@ -43,14 +43,12 @@ class ViewSession:
             self._run(0, sys.maxsize)
 
     def show(self, viewed: Viewed) -> None:
-        """Let all viewers see another run, in the loop that is running."""
         self._show(viewed)
         self.number += 1
         self.begin()
         self.changed()
 
     def _show(self, viewed: Viewed) -> None:
-        """Show a run, and nothing of those before it."""
         for growing in self._growing.values():
             growing.cancel()
         self._growing = {}
@@ -70,20 +68,17 @@ class ViewSession:
         """The first message to a viewer: the run, and the columns of its rows."""
         viewed = self.forks[0]
         columns = viewed.columns
+        # It is what a robot drives, which began this process and takes orders.
+        takes_orders = viewed.about["source"] == "robot" and os.getppid() in drivers()
         return {
             "say": "about",
             "edits": edits,
-            "orders": order_data(viewed.flows.graph) if edits and self._takes_orders(viewed) else [],
+            "orders": order_data(viewed.flows.graph) if edits and takes_orders else [],
             "doubles": columns.width(DOUBLE_BLOCK),
             "singles": columns.width(SINGLE_BLOCK),
             "columns": {name: [g.block, g.first, g.count] for name, g in columns.items()},
             **viewed.about,
         }
-
-    @staticmethod
-    def _takes_orders(viewed: Viewed) -> bool:
-        """True if it is what a robot drives, which began this process and takes orders."""
-        return bool(viewed.about["source"] == "robot" and os.getppid() in drivers())
 
     def ticks(self, fork: int, happened: int = 0, stops: int = 0) -> dict[str, Any]:
         """The message on how far a fork has come, with its events and stops from those numbers on."""
@@ -123,7 +118,6 @@ class ViewSession:
         return await asyncio.get_running_loop().run_in_executor(self._answerer, _computed, viewed, message)
 
     async def _play(self, asked: messages.PlayChampion) -> None:
-        """Show the champion of another generation."""
         if self.learning is None or asked.run >= len(self.learning.runs):
             raise RefusedError(f"there is no training {asked.run}")
         seed = None if asked.seed is None else int(asked.seed)

@@ -62,7 +62,9 @@ class Viewed:
     ) -> None:
         self.about, self.columns, self.is_live, self.drawing = about, columns, is_live, drawing
         self.begins: set[int] = set()
-        self.flows = EdgeFlows(graph, mind, self._thought, self.begins)
+        self.flows = EdgeFlows(
+            graph, mind, lambda ticks: (self.group("readings", ticks), self.group("influence", ticks)), self.begins
+        )
         self.forked: Callable[[AskChange], tuple[Viewed, str]] | None = None
         self.blocks = RowBlocks()
         self.happened: list[tuple[int, int]] = []
@@ -73,18 +75,12 @@ class Viewed:
         self._growth = growth(self)
         self._seen: SeenEpisode | None = None
 
-    def _thought(self, ticks: TickNumbers) -> tuple[Singles, Singles]:
-        """The readings and the influence of ticks [ticks, numbers]; in the first tick nothing flows."""
-        return self.group("readings", ticks), self.group("influence", ticks)
-
     @property
     def known(self) -> int:
-        """The last tick that can be asked for."""
         return self.blocks.rows - 1
 
     @property
     def kept_bytes(self) -> int:
-        """The bytes of its rows, and of what flowed in them."""
         return self.blocks.kept_bytes + self.flows.kept_bytes
 
     def grow(self, bytes_elsewhere: int = 0) -> None:
@@ -130,7 +126,6 @@ class Viewed:
         return columns_frame(asked, values)
 
     def doubles(self, ticks: TickNumbers) -> Doubles:
-        """The doubles [ticks, columns]."""
         return self.blocks.kept(DOUBLE_BLOCK, ticks)
 
     def singles(self, ticks: TickNumbers) -> Singles:
@@ -158,5 +153,4 @@ class Viewed:
 
     @property
     def _computed_rows(self) -> int:
-        """The number of rows whose flows are computed at once."""
         return max(1, MAX_COMPUTED_EDGES // max(1, len(self.flows.links)))

@@ -1,24 +1,25 @@
 """Rows of a recording as a page sees them, whoever makes them: a simulator now, a robot, or one who wrote them down."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from mindrun.engine.promises import BY_SKILL, PromiseWatcher
 from mindrun.engine.think import hierarchy
 from mindrun.graph.bundle import Bundle
-from mindrun.graph.graph import Task
+from mindrun.graph.graph import Graph, Task
 from mindrun.graph.recording_header import GOES_ON, POSE_COLUMNS, THING_COLUMNS, About
 from numpy.typing import NDArray
 
 from mindlang.pictures.environments import seen_episode
 from mindlang.run import outcome
-from mindlang.view.about import Texts, about_data, robot_event_data, world_event_data
+from mindlang.run.promises import VERDICTS, judged
+from mindlang.view.about import PROMISE_COLUMNS, Texts, about_data, robot_event_data, world_event_data
 from mindlang.view.messages import shown
 from mindlang.view.rows import DOUBLE_BLOCK, FLOW, Columns, Doubles, Singles
 from mindlang.view.viewed import Viewed
-from mindlang.view.viewed_promises import PROMISE_COLUMNS, ViewedPromises
 
 if TYPE_CHECKING:
     from mindlang.breakpoints.watch import Stop
@@ -92,7 +93,7 @@ def _growth(
     parts: Iterator[Filled],
     of: About,
     task: Task | None,
-    promises: ViewedPromises,
+    promises: "ViewedPromises",
     events: int,
     watch: Watch | None,
     viewed: Viewed,
@@ -152,7 +153,6 @@ def _beginning(columns: Columns, of: About) -> tuple[Doubles, Singles]:
 
 
 def _blocks(rows: Rows, columns: Columns, found: Mapping[str, NDArray[Any]]) -> tuple[Doubles, Singles]:
-    """Both blocks [ticks, columns] of rows, of which some groups were found beside them; `flow` is not kept."""
     doubles = np.empty((len(rows), columns.width(DOUBLE_BLOCK)))
     singles = np.empty((len(rows), columns.kept_singles), np.float32)  # bits of readings stay what they are
     for name, group in columns.items():
@@ -174,3 +174,26 @@ def _value(name: str, rows: Rows) -> NDArray[Any]:
         case "battery" | "rewards" | "held" | "touching":
             return rows["world"][name]
     return rows[name]
+
+
+class ViewedPromises:
+    """The promises below a master, and what became of them in all rows so far."""
+
+    def __init__(self, graph: Graph, master: str) -> None:
+        self._watcher = PromiseWatcher(graph, master)
+        self.texts = [f"{skill} {promise.text}" for skill, promise in self._watcher.promises]
+        self._times = np.zeros((1, len(self.texts), len(VERDICTS)), np.int64)
+
+    def feed(
+        self, readings: Singles, influence: Singles, begins: Collection[int]
+    ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+        """The columns [rows, promises · PROMISE_COLUMNS] of the next rows, and where each is broken [rows, promises].
+
+        In the rows of `begins` the mind begins anew.
+        """
+        verdict = judged(self._watcher, readings, influence, begins)[:, :, None]
+        times = self._times + np.cumsum(verdict == [*VERDICTS.values()], axis=0)
+        self._times = np.concatenate([self._times, times])[-1:]
+        return np.concatenate([verdict, times], axis=2).reshape(
+            len(verdict), PROMISE_COLUMNS * len(self.texts)
+        ), verdict[:, :, 0] >= BY_SKILL

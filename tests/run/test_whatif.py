@@ -12,9 +12,8 @@ from mindrun.engine.changes import ChangeError, change_of, silenced
 from mindrun.robot.recording import read
 
 from mindlang.compiler.compile import load
-from mindlang.pictures.picture import view_of
+from mindlang.pictures.picture import outcome_words, view_of
 from mindlang.pictures.theme import PAPER
-from mindlang.pictures.two_paths import outcome_words
 from mindlang.run.recorded_run import RecordedRun, run_result
 from mindlang.run.setup import RunSetup, set_up
 from mindlang.whatif.comparison import compare_runs

@@ -1,20 +1,21 @@
-"""A small editor: JSON-RPC over the standard streams of `mindc lsp`, documents, and edits applied to them.
+"""A small editor: JSON-RPC over the streams of a server in a thread, documents, and edits applied to them.
 
 It counts columns on its own, in UTF-16, and knows nothing of how the server does.
 """
 
 import json
+import logging
+import os
 import re
-import subprocess
-import sys
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from queue import Empty, Queue
 from typing import Any
 
-ROOT = Path(__file__).parents[2]
+from mindlang.server.serve import serve
+
 WAIT = 300
 CAPABILITIES = {
     "workspace": {
@@ -33,10 +34,10 @@ class Editor:
     """A client with open documents."""
 
     def __init__(self, folder: Path, capabilities: dict[str, Any] = CAPABILITIES) -> None:
-        command = [sys.executable, "-c", "from mindlang.cli import main; main()", "lsp", "--stdio"]
-        self.process = subprocess.Popen(
-            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=folder
-        )
+        questions, answers = os.pipe(), os.pipe()
+        self.output, self.input = os.fdopen(questions[1], "wb"), os.fdopen(answers[0], "rb")
+        self.code: int | None = None
+        self.server = self._begin(lambda: self._serve(questions[0], answers[1]))
         self.inbox: Queue[dict[str, Any]] = Queue()
         self.texts: dict[str, str] = {}
         self.versions: dict[str, int] = {}
@@ -44,14 +45,21 @@ class Editor:
         self.messages: list[str] = []
         self.registered: list[str] = []
         self.number = 0
-        self.errors = b""
-        threads = (threading.Thread(target=target, daemon=True) for target in (self._read, self._read_errors))
-        for thread in threads:
-            thread.start()
+        self.reader = self._begin(self._read)
         self.capabilities = self.ask(
             "initialize", {"processId": None, "rootUri": uri(folder), "capabilities": capabilities}
         )["capabilities"]
         self.tell("initialized", {})
+
+    @staticmethod
+    def _begin(work: Callable[[], None]) -> threading.Thread:
+        thread = threading.Thread(target=work, daemon=True)
+        thread.start()
+        return thread
+
+    def _serve(self, questions: int, answers: int) -> None:
+        with os.fdopen(questions, "rb") as read, os.fdopen(answers, "wb") as written:
+            self.code = serve(read, written)
 
     # Messages.
 
@@ -87,7 +95,7 @@ class Editor:
             try:
                 message = self.inbox.get(timeout=WAIT)
             except Empty:
-                raise AssertionError(f"the server says nothing more; stderr: {self.errors.decode()[-2000:]}") from None
+                raise AssertionError("the server says nothing more") from None
             self._take(message)
             if is_it(message):
                 return message
@@ -108,23 +116,16 @@ class Editor:
                 self._send({"id": message["id"], "result": None})
 
     def _send(self, message: dict[str, Any]) -> None:
-        assert self.process.stdin
-        body = json.dumps({"jsonrpc": "2.0", **message}).encode()
-        self.process.stdin.write(b"Content-Length: %d\r\n\r\n" % len(body) + body)
-        self.process.stdin.flush()
+        self.output.write(framed(message))
+        self.output.flush()
 
     def _read(self) -> None:
-        assert self.process.stdout
-        while head := self.process.stdout.readline():
+        while head := self.input.readline():
             length = int(head.split(b":")[1])
-            while self.process.stdout.readline().strip():
+            while self.input.readline().strip():
                 pass
-            self.inbox.put(json.loads(self.process.stdout.read(length)))
-
-    def _read_errors(self) -> None:
-        assert self.process.stderr
-        for line in self.process.stderr:
-            self.errors += line
+            self.inbox.put(json.loads(self.input.read(length)))
+        self.input.close()
 
     # Documents.
 
@@ -200,11 +201,29 @@ class Editor:
             )
         return None
 
-    def end(self) -> int:
+    def end(self) -> int | None:
         """The server told to stop; how it ends."""
         self.ask("shutdown", None)
         self.tell("exit", None)
-        return self.process.wait(timeout=WAIT)
+        return self.ended()
+
+    def ended(self) -> int | None:
+        """How the server ends: its exit code."""
+        self.server.join(WAIT)
+        self.gone()
+        self.reader.join(WAIT)
+        return self.code
+
+    def gone(self) -> None:
+        """The editor is gone, as if it had crashed."""
+        with suppress(BrokenPipeError):
+            self.output.close()
+
+
+def framed(message: dict[str, Any]) -> bytes:
+    """A message as it is sent."""
+    body = json.dumps({"jsonrpc": "2.0", **message}).encode()
+    return b"Content-Length: %d\r\n\r\n" % len(body) + body
 
 
 def uri(path: Path) -> str:
@@ -244,14 +263,28 @@ def said(text: str, place: dict[str, Any]) -> str:
     return text[offset(text, place["start"]) : offset(text, place["end"])]
 
 
+class Heard(logging.Handler):
+    """Keeps what the server would write into the log of an editor."""
+
+    def __init__(self) -> None:
+        super().__init__(logging.ERROR)
+        self.said: list[str] = []
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Keep a record."""
+        self.said.append(self.format(record))
+
+
 @contextmanager
 def editing(folder: Path, **more: Any) -> Iterator[Editor]:
-    """An editor at work, whose server says nothing on its standard error and ends well."""
+    """An editor at work, whose server finds no fault in itself and ends well."""
+    heard, log = Heard(), logging.getLogger("pygls")
+    log.addHandler(heard)
     editor = Editor(folder, **more)
     try:
         yield editor
         assert editor.end() == 0
-        assert b"Traceback" not in editor.errors, editor.errors.decode()
+        assert not heard.said
     finally:
-        editor.process.kill()
-        editor.process.wait()
+        editor.gone()
+        log.removeHandler(heard)

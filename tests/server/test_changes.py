@@ -232,9 +232,9 @@ def test_every_edit_is_proposed_somewhere_and_comes_to_what_compiles(tmp_path: P
             perform(workspace, path, each.edit, each.arguments)
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_proposals_for_every_example(path: Path) -> None:
-    workspace = Workspace({path: path.read_text(encoding="utf-8")})
-    if workspace.main_of(path) == path:
-        _, found = everywhere(path, workspace.texts[path])
-        assert "split" in {each.edit for each in found}
+@pytest.mark.parametrize("name", ["tour", "like", "lander"])
+def test_proposals_for_examples(name: str) -> None:
+    """Minds with several files, with skills like others, and without a world of their own."""
+    path = next(path for path in EXAMPLES if path.stem == name)
+    _, found = everywhere(path, path.read_text(encoding="utf-8"))
+    assert "split" in {each.edit for each in found}

@@ -11,7 +11,7 @@ import pytest
 from mindlang.server.server import TYPING_PAUSE_SECONDS, MindServer
 from tests.calling import Call
 from tests.language.examples import EXAMPLES
-from tests.server.client import WAIT, Editor, ServerError, editing, uri
+from tests.server.client import WAIT, Editor, ServerError, editing, framed, uri
 
 PIECES = (
     " ", "\n", "\r\n", "#", '"', "(", ")", "é", "😀", "\u2028", "skill ", "reads ", "influences ", "use ", " at ",
@@ -20,19 +20,22 @@ PIECES = (
 QUESTIONS = ("hover", "completion", "definition", "references", "documentHighlight", "prepareRename", "codeAction")
 
 
-def test_it_ends_as_it_is_told(tmp_path: Path) -> None:
-    editor = Editor(tmp_path)
-    assert editor.end() == 0
-    rude = Editor(tmp_path)
+def test_it_ends_as_it_is_told() -> None:
+    """The one test of the program: streams, exit codes and a quiet standard error."""
+    command = [sys.executable, "-c", "from mindlang.cli import main; main()", "lsp", "--stdio"]
+    begin = {"id": 1, "method": "initialize", "params": {"processId": None, "rootUri": None, "capabilities": {}}}
+    said = b"".join(map(framed, (begin, {"id": 2, "method": "shutdown"}, {"method": "exit"})))
+    polite = subprocess.run(command, input=said, capture_output=True, timeout=WAIT)
+    assert (polite.returncode, polite.stderr) == (0, b"")
+    assert polite.stdout.count(b"Content-Length: ") == 2
+    assert b'"serverInfo"' in polite.stdout
+
+
+def test_it_ends_when_the_editor_is_rude_or_gone(tmp_path: Path) -> None:
+    rude, lost = Editor(tmp_path), Editor(tmp_path)
     rude.tell("exit", None)
-    assert rude.process.wait(timeout=WAIT) == 1
-
-
-def test_it_ends_when_the_editor_is_gone(tmp_path: Path) -> None:
-    editor = Editor(tmp_path)
-    assert editor.process.stdin
-    editor.process.stdin.close()
-    assert editor.process.wait(timeout=WAIT) == 1
+    lost.gone()
+    assert (rude.ended(), lost.ended()) == (1, 1)
 
 
 def test_without_pygls_it_says_what_to_do(mindc: Call, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -94,9 +97,8 @@ def test_what_was_typed_fast_is_checked_as_it_is_in_the_end(tmp_path: Path) -> N
         assert [each["range"]["start"]["line"] for each in editor.settle(path)] == [text.count("\n")]
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_no_text_and_no_place_bring_it_down(tmp_path: Path, seed: int) -> None:
-    random_ = random.Random(seed)
+def test_no_text_and_no_place_bring_it_down(tmp_path: Path) -> None:
+    random_ = random.Random(0)
     for path in EXAMPLES:
         (tmp_path / path.name).write_bytes(path.read_bytes())
     paths = sorted(tmp_path.resolve().glob("*.mind"))

@@ -7,11 +7,11 @@ from lsprotocol.types import Position
 from pygls.workspace import PositionCodec
 
 from benchmarks.call_count import CallCount
-from mindlang.server.server import LspConverter
+from mindlang.server.server import EditorSession
 from tests.server.client import offset, position
 
 TEXTS = st.text(st.sampled_from("ab é😀\u2028\x85\x0b#\n\r"), max_size=40)
-UTF_16 = LspConverter(PositionCodec())
+UTF_16 = EditorSession(PositionCodec())
 
 
 @given(TEXTS, st.data())
@@ -27,14 +27,14 @@ def test_utf_16_there_and_back(text, data):
 
 @given(TEXTS, st.integers(0, 50), st.integers(0, 50), st.sampled_from(["utf-8", "utf-16", "utf-32"]))
 def test_any_place_has_an_offset(text, line, column, encoding):
-    assert 0 <= LspConverter(PositionCodec(encoding)).offset(text, Position(line, column)) <= len(text)
+    assert 0 <= EditorSession(PositionCodec(encoding)).offset(text, Position(line, column)) <= len(text)
 
 
 @pytest.mark.parametrize(("encoding", "column"), [("utf-8", 7), ("utf-16", 4), ("utf-32", 3)])
 def test_what_a_column_counts(encoding, column):
     text = "# a\r\né😀 x"
-    assert LspConverter(PositionCodec(encoding)).position(text, 8) == Position(1, column)
-    assert LspConverter(PositionCodec(encoding)).offset(text, Position(1, column)) == 8
+    assert EditorSession(PositionCodec(encoding)).position(text, 8) == Position(1, column)
+    assert EditorSession(PositionCodec(encoding)).offset(text, Position(1, column)) == 8
 
 
 def test_behind_the_end_of_a_line_is_its_end():

@@ -11,7 +11,7 @@ from mindrun.sim.trace import trace
 
 from mindlang.run.promises import PromiseCounts
 from mindlang.view.viewed import Viewed
-from mindlang.view.viewed_promises import ViewedPromises
+from mindlang.view.viewed_rows import ViewedPromises
 from tests.run.test_promises import MIND, made, prepared
 from tests.view.browser import Opened, chromium
 from tests.view.serving import served, simulated

@@ -1,4 +1,8 @@
-"""The hierarchy in one tick, after the paper's Figure 15: a link's middle is the command, its rim the influence."""
+"""Panels of a film: the hierarchy in one tick, after the paper's Figure 15, and what its sensors read.
+
+A link's middle is the command, its rim the influence. Beside the name of a sensor stands a bar and its number, or a
+small bar for each reading.
+"""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -9,6 +13,8 @@ from typing import Literal
 
 import numpy as np
 from mindrun.engine.engine import procedure_sources
+from mindrun.graph.graph import Sensor
+from mindrun.graph.weights import reachable
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, Region, text_width
@@ -35,7 +41,12 @@ class HierarchyPanel:
         sources = procedure_sources(run.graph, run.setup.folder, run.setup.master)
         self._flows = edge_flows(run.setup.ready.policy, sources, run.setup.master, run)
         self._boxes, self._stops = laid_out(self._flows.links, self._flows.skills, room)
-        self._lines = {sink: self._lines_of(sink, place) for sink, place in self._boxes.items()}
+        # A skill's number stands below its name, any other's behind it.
+        names = {sink: run.graph.named(*sink) for sink in self._boxes}
+        self._lines = {
+            sink: broken(names[sink], 0.84 * place.width) if sink[0] == "skill" else [f"{names[sink]}  0.00"]
+            for sink, place in self._boxes.items()
+        }
         self._size = min(box_text_size(self._lines[sink], place) for sink, place in self._boxes.items())
 
     def draw(self, canvas: Canvas, tick: int) -> None:
@@ -82,7 +93,6 @@ class HierarchyPanel:
         canvas.line([(left + middle * width, below - 6), (left + middle * width, below + 6)], NIGHT.faint)
 
     def _box(self, canvas: Canvas, place: "Place", fill: Colour, rim: Colour) -> None:
-        """Draw a box with round corners."""
         radius = min(8.0, place.width / 3, place.height / 3)
         sides = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)])
         middles = [place.x, place.y] + sides * [place.width / 2 - radius, place.height / 2 - radius]
@@ -91,11 +101,6 @@ class HierarchyPanel:
         outline = np.reshape(around, (-1, 2))
         canvas.polygon(outline, fill)
         canvas.line(outline, rim, 2.0, closed=True)
-
-    def _lines_of(self, sink: Sink, place: "Place") -> list[str]:
-        """The lines of text in a box: a skill's number stands below its name, any other's behind it."""
-        name = self._run.graph.named(*sink)
-        return broken(name, 0.84 * place.width) if sink[0] == "skill" else [f"{name}  0.00"]
 
 
 def broken(name: str, room: float) -> list[str]:
@@ -141,8 +146,14 @@ class Place:
 def laid_out(links: Sequence[Link], skills: Sequence[int], room: Region) -> tuple[dict[Sink, Place], list[list[Place]]]:
     """The boxes in rows from the master down, so that few links cross, and the places that each link goes through."""
     level = _levels(links, skills)
-    routes = [_route(number, link, level) for number, link in enumerate(links)]
-    rows = _ordered(_rows(level, routes), routes)
+    routes: list[list[Stop]] = []
+    for number, link in enumerate(links):  # from box to box, with a stop in each row that it passes
+        passed = range(level["skill", link.source] + 1, level[link.target])
+        stops: dict[Stop, int] = {("link", number * 1000 + row): row for row in passed}
+        routes.append([("skill", link.source), *stops, link.target])
+        level |= stops
+    rows = [[stop for stop, at in level.items() if at == row] for row in range(max(level.values()) + 1)]
+    rows = _ordered(rows, routes)
     places = {sink: place for i, row in enumerate(rows) for sink, place in _spread(row, i, len(rows), room)}
     boxes = {(to, index): place for (to, index), place in places.items() if to != "link"}
     return boxes, [[places[stop] for stop in route] for route in routes]
@@ -156,23 +167,6 @@ def _levels(links: Sequence[Link], skills: Sequence[int]) -> dict[Stop, int]:
             level[link.target] = max(level[link.target], level["skill", link.source] + 1)
     last = max(level.values()) + 1
     return level | dict.fromkeys(sorted(link.target for link in links if link.target[0] != "skill"), last)
-
-
-def _route(number: int, link: Link, level: dict[Stop, int]) -> list[Stop]:
-    """The link's ends, and between them a stop in each row that it passes."""
-    source: Sink = ("skill", link.source)
-    passed = range(level[source] + 1, level[link.target])
-    return [source, *(("link", number * 1000 + row) for row in passed), link.target]
-
-
-def _rows(level: dict[Stop, int], routes: Iterable[Sequence[Stop]]) -> list[list[Stop]]:
-    rows: list[list[Stop]] = [[] for _ in range(max(level.values()) + 1)]
-    for sink, row in level.items():
-        rows[row].append(sink)
-    for route in routes:
-        for row, stop in enumerate(route[1:-1], level[route[0]] + 1):
-            rows[row].append(stop)
-    return rows
 
 
 def _ordered(rows: list[list[Stop]], routes: Iterable[Sequence[Stop]]) -> list[list[Stop]]:
@@ -190,7 +184,6 @@ def _ordered(rows: list[list[Stop]], routes: Iterable[Sequence[Stop]]) -> list[l
 
 
 def _spread(row: Sequence[Stop], level: int, levels: int, room: Region) -> Iterable[tuple[Stop, Place]]:
-    """The boxes of a row side by side."""
     shares = [PASSAGE_SHARE if sink[0] == "link" else 1.0 for sink in row]
     unit, gap = room.width / sum(shares), room.height / levels
     x, y = room.left, room.low + (level + 0.5) * gap
@@ -198,3 +191,96 @@ def _spread(row: Sequence[Stop], level: int, levels: int, room: Region) -> Itera
         width, height = min(0.88 * share * unit, MAX_BOX_WIDTH), min(BOX_SHARE * gap, MAX_BOX_HEIGHT)
         yield sink, Place(x + share * unit / 2, y, width, height)
         x += share * unit
+
+
+READING_PIXELS, MIN_READING_PIXELS = 9.0, 6.5  # capitals
+ROW_PIXELS, COLUMN_PIXELS = 20.0, 250.0  # of a sensor's readings
+INDENT_PIXELS = 10.0  # on both sides of a cell
+NAME_SHARE, NUMBER_SHARE = 0.54, 0.14  # of a cell: what its name and its number have
+BAR_PIXELS, MANY_BARS_PIXELS = 5.0, 13.0  # the height of a bar, and of each among many
+LEAST_BAR_PIXELS = 3.0  # the width of one bar among many: where there are more, some are left out
+
+
+def sensors_read(run: RecordedRun) -> list[Sensor]:
+    """The sensors that the master, or a skill that it can influence, reads; no other one is measured."""
+    read = {index for skill in reachable(run.graph, run.setup.master) for index in skill.inputs}
+    return [s for s in run.graph.sensors if not read.isdisjoint(range(s.start, s.start + s.width))]
+
+
+class ReadingsPanel:
+    """Draws the readings of a run into a rectangle of a canvas, as many sensors as fit."""
+
+    def __init__(self, run: RecordedRun, room: Region) -> None:
+        self._run = run
+        self._sensors, self._cells, self._left_out = cell_layout(sensors_read(run), room)
+
+    def draw_names(self, canvas: Canvas) -> None:
+        """Draw what no tick changes: the names, and how many sensors are not shown."""
+        names = [sensor.name for sensor in self._sensors]
+        names += [f"and {self._left_out} more"] * (self._left_out > 0)
+        for name, cell in zip(names, self._cells, strict=False):
+            text, size = fit_name(name, NAME_SHARE * cell.width - 8)
+            canvas.text(cell.left, cell.low + size / 2, text, size, NIGHT.faint)
+
+    def draw(self, canvas: Canvas, tick: int) -> None:
+        """Draw the readings in a tick, the first of which is 1."""
+        for sensor, cell in zip(self._sensors, self._cells, strict=False):
+            values = self._run.readings[tick - 1, sensor.start : sensor.start + sensor.width].astype(float)
+            left, right = cell.left + NAME_SHARE * cell.width, cell.left + cell.width
+            if len(values) == 1:
+                self._number(canvas, float(values[0]), left, right - NUMBER_SHARE * cell.width, right, cell.low)
+            else:
+                self._many(canvas, values, left, right, cell.low)
+
+    def _number(self, canvas: Canvas, value: float, left: float, end: float, right: float, y: float) -> None:
+        share = _shares(np.array([value]))[0]
+        canvas.line([(left, y), (end, y)], NIGHT.dark, BAR_PIXELS)
+        if share > 0:
+            canvas.line([(left, y), (left + share * (end - left), y)], NIGHT.ray, BAR_PIXELS)
+        canvas.text(right, y + READING_PIXELS / 2, f"{value:.2f}", READING_PIXELS, NIGHT.ink, align="right")
+
+    def _many(self, canvas: Canvas, values: NDArray[np.float64], left: float, right: float, y: float) -> None:
+        """Draw bars of readings side by side; where there are too many, of some at equal distances."""
+        low = y + MANY_BARS_PIXELS / 2
+        count = min(len(values), int((right - left) // LEAST_BAR_PIXELS))
+        shown = _shares(values)[np.linspace(0, len(values) - 1, count).astype(int)]
+        wide = (right - left) / count
+        for number, share in enumerate(shown):
+            begin, end = left + number * wide, left + (number + 1) * wide - 1
+            for high, colour in ((1.0, NIGHT.dark), (float(share), NIGHT.ray)):
+                top = low - high * MANY_BARS_PIXELS
+                if high > 0:
+                    canvas.polygon([(begin, low), (end, low), (end, top), (begin, top)], colour)
+
+
+def cell_layout(sensors: Sequence[Sensor], room: Region) -> tuple[Sequence[Sensor], list[Region], int]:
+    """The sensors that are shown in a room, the cells column by column, and how many are left out: the last says that.
+
+    A cell is given by its left end and its middle row.
+    """
+    columns = max(1, int(room.width // COLUMN_PIXELS))
+    rows = min(int(room.height // ROW_PIXELS), -(-len(sensors) // columns))
+    wide, cells = room.width / columns, []
+    for number in range(min(len(sensors), rows * columns)):
+        column, row = divmod(number, rows)
+        left = room.left + column * wide + INDENT_PIXELS
+        cells.append(Region(left, room.low + (row + 0.5) * ROW_PIXELS, wide - 2 * INDENT_PIXELS, ROW_PIXELS))
+    shown = len(cells) if len(sensors) <= len(cells) else max(0, len(cells) - 1)
+    return sensors[:shown], cells, len(sensors) - shown
+
+
+def fit_name(name: str, room: float) -> tuple[str, float]:
+    """A name and its size such that it is not wider than so many pixels: smaller, and if that is not enough, cut."""
+    size = READING_PIXELS
+    while size > MIN_READING_PIXELS and text_width(name, size) > room:
+        size -= 0.5
+    text = name
+    while len(text) > 1 and text_width(text, size) > room:
+        name = name[:-1]
+        text = f"{name}.."
+    return text, size
+
+
+def _shares(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Readings as the lengths of bars, 0 to 1; what is not a finite number has none."""
+    return np.clip(np.where(np.isfinite(values), values, 0.0), 0.0, 1.0)
