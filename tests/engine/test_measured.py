@@ -3,7 +3,7 @@
 from typing import Any
 
 import numpy as np
-from hypothesis import event, given
+from hypothesis import event, given, settings
 from hypothesis import strategies as st
 from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Graph
@@ -13,12 +13,14 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
 from mindrun.graph.wiring import read_by
 
+from tests.draws import cases
 from tests.hierarchies import PROCEDURES, random_graph
 
 TICKS = 5
 
 
 @given(random_graph(), st.data(), st.integers(0, 2**32 - 1))
+@settings(max_examples=cases(50))
 def test_readings_that_are_measured_come_of_what_is_wired_alone(graph: Graph, data: Any, seed: int) -> None:
     rng = np.random.default_rng(seed)
     others = sorted(physical(graph).keys() - read_by(graph, graph.master))

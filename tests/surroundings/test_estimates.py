@@ -17,7 +17,7 @@ from mindlang.run.setup import layouts, run_all
 from mindlang.run.tables import csv_parts, runs_table
 from tests.calling import Call
 
-RUNS = 30_000
+RUNS = 3_000
 MIND = """
 tick 1/60 s
 master Go

@@ -16,7 +16,7 @@ from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.kinds.things.thing import ThingKind
 from mindrun.numbers.expression import Program as Program
-from mindrun.numbers.quantity import ANGLE, COORDINATE, RATIO, Place, Quantity
+from mindrun.numbers.quantity import ANGLE, COORDINATE, Place, Quantity, Ratio
 from mindrun.numbers.short_repr import ShortRepr
 
 Receiver = Literal["skill", "actuator", "memory"]  # of what a skill sends
@@ -219,7 +219,7 @@ class Failure:
     """An actuator that fails in each tick with the probability `rate`, and is neutral from then on."""
 
     actuator: str
-    rate: Annotated[float, RATIO]
+    rate: Ratio
 
 
 def varied_quantity(kind: Any, argument: str) -> Quantity | None:

@@ -6,7 +6,7 @@ from math import sqrt
 from typing import Annotated
 
 from mindrun.kinds.registry import kind, left_out
-from mindrun.numbers.quantity import COUNT, GENERATIONS, RATIO, Quantity
+from mindrun.numbers.quantity import GENERATIONS, Count, Quantity, Ratio
 
 OCTAVES = Quantity("a whole number up to 8", {"": 1.0}, low=0, high=8, whole=True)
 SPREAD = Quantity("a number above zero", {"": 1.0}, low=1e-6, high=1000.0)
@@ -39,17 +39,17 @@ class Genetic:
     """
 
     population: Annotated[int, POPULATION] = 100
-    attempts: Annotated[int, COUNT] = 1
-    layouts: Annotated[int, COUNT] = 2
-    elite: Annotated[float, RATIO] = 0.1
+    attempts: Count = 1
+    layouts: Count = 2
+    elite: Ratio = 0.1
     mutation: Annotated[float, SPREAD] = 0.5
-    mutated: Annotated[float, RATIO] = 0.1
+    mutated: Ratio = 0.1
     octaves: Annotated[int, OCTAVES] = 0
     patience: Annotated[int, PATIENCE_GENERATIONS] = 0
     founders: Annotated[int, FOUNDERS] = 0
     rungs: Annotated[int, RUNGS] = 0
     short: Annotated[float, SHARE] = 1.0
-    keeps: Annotated[float, RATIO] = 0.0
+    keeps: Ratio = 0.0
     lowest: Annotated[float, SHARE] = left_out(1.0)
 
     def standstill(self, weights: int, generations: int) -> str:
@@ -79,7 +79,7 @@ class Restarting(Genetic):
     the best is kept.
     """
 
-    attempts: Annotated[int, COUNT] = 4
+    attempts: Count = 4
     octaves: Annotated[int, OCTAVES] = 2
     patience: Annotated[int, PATIENCE_GENERATIONS] = 40
 
@@ -95,14 +95,14 @@ class EvolutionStrategy:
     """
 
     population: Annotated[int, POPULATION] = 50
-    attempts: Annotated[int, COUNT] = 1
-    layouts: Annotated[int, COUNT] = 2
+    attempts: Count = 1
+    layouts: Count = 2
     mutation: Annotated[float, SPREAD] = 0.2
     patience: Annotated[int, PATIENCE_GENERATIONS] = 0
     founders: Annotated[int, FOUNDERS] = 0
     rungs: Annotated[int, RUNGS] = 0
     short: Annotated[float, SHARE] = 1.0
-    keeps: Annotated[float, RATIO] = 0.0
+    keeps: Ratio = 0.0
     lowest: Annotated[float, SHARE] = left_out(1.0)
 
     def standstill(self, weights: int, generations: int) -> str:

@@ -9,17 +9,16 @@ from mindrun.kinds.environment import OfEnvironment, Slot
 from mindrun.kinds.registry import base, kind, left_out
 from mindrun.numbers.quantity import (
     ANGLE,
-    INDEX,
-    LENGTH,
-    NUMBER,
-    RATIO,
-    SLOT,
-    TICKS,
     UNSAID,
+    Indices,
+    Length,
+    PartName,
     Place,
     Quantity,
+    Range,
+    Ratio,
     Reference,
-    Span,
+    Ticks,
 )
 from mindrun.numbers.trigonometry import cosine, sine
 
@@ -106,11 +105,9 @@ class Pushing(ActuatorKind):
 
     @property
     def acts_at_rest(self) -> bool:
-        """True if it pushes at its neutral command, or may with its noise."""
         return (self.neutral != STOPPED_COMMAND or self.noise > 0) and self.thrust != 0.0
 
     def row(self, body: BodyKind) -> Row:
-        """The columns of what pushes: thrust, direction, lever arm, side, noise and slip."""
         (x, y), (ahead, aside) = self.place(body), self.direction
         return {
             "thrust": self.thrust, "ahead": ahead, "aside": aside, "arm": x * aside - y * ahead, "is_right": y < 0,
@@ -128,7 +125,6 @@ class Rolling(Pushing):
     varying = (*Pushing.varying, "starts")
 
     def row(self, body: BodyKind) -> Row:
-        """The columns of what pushes, and the share below which it does not start."""
         own = Pushing.row(self, body)
         return {**own, "starts": self.starts} if self.starts > 0 else own
 
@@ -147,22 +143,20 @@ class Wheel(Rolling):
     """
 
     side: Annotated[Side, SIDE]
-    neutral: Annotated[float, RATIO]
+    neutral: Ratio
     thrust: Annotated[float, THRUST] = 80.0
-    delay: Annotated[int, TICKS] = 0
-    noise: Annotated[float, RATIO] = 0.0
-    slip: Annotated[float, RATIO] = 0.0
-    starts: Annotated[float, RATIO] = left_out(0.0)
+    delay: Ticks = 0
+    noise: Ratio = 0.0
+    slip: Ratio = 0.0
+    starts: Ratio = left_out(0.0)
 
     drive = "wheel"
 
     @property
     def mounted(self) -> Side:
-        """The side of the body that it is on."""
         return self.side
 
     def place(self, body: BodyKind) -> Point:
-        """A point beside the body's middle, on the wheel's side."""
         return 0.0, body.side if self.side == "left" else -body.side
 
 
@@ -177,27 +171,24 @@ class Thruster(Pushing):
     the tick that computed it, with up to `noise` more or less; up to `slip` of the force is lost, anew in every tick.
     """
 
-    neutral: Annotated[float, RATIO]
+    neutral: Ratio
     at: Annotated[Place, PLACE] = (0.0, 0.0)
     facing: Annotated[float, ANGLE] = 0.0
     thrust: Annotated[float, THRUST] = 80.0
-    delay: Annotated[int, TICKS] = 0
-    noise: Annotated[float, RATIO] = 0.0
-    slip: Annotated[float, RATIO] = 0.0
+    delay: Ticks = 0
+    noise: Ratio = 0.0
+    slip: Ratio = 0.0
 
     drive = "thruster"
 
     def place(self, body: BodyKind) -> Point:
-        """The point of the body that its argument `at` names."""
         return self.at
 
     @property
     def direction(self) -> Point:
-        """The vector of length 1 at the angle that its argument `facing` says."""
         return cosine(self.facing), sine(self.facing)
 
     def push(self, body: BodyKind) -> tuple[Point, Point]:
-        """The place of a thruster on the body, and the direction in which it pushes."""
         return self.at, self.direction
 
 
@@ -211,12 +202,12 @@ class Motor(Rolling):
     to 0 or 1.
     """
 
-    neutral: Annotated[float, RATIO]
+    neutral: Ratio
     thrust: Annotated[float, THRUST] = 160.0
-    delay: Annotated[int, TICKS] = 0
-    noise: Annotated[float, RATIO] = 0.0
-    slip: Annotated[float, RATIO] = 0.0
-    starts: Annotated[float, RATIO] = left_out(0.0)
+    delay: Ticks = 0
+    noise: Ratio = 0.0
+    slip: Ratio = 0.0
+    starts: Ratio = left_out(0.0)
 
     drive = "motor"
 
@@ -234,21 +225,19 @@ class Steering(ActuatorKind):
     A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less.
     """
 
-    neutral: Annotated[float, RATIO]
+    neutral: Ratio
     range: Annotated[float, TURN] = 30 * DEGREE
-    delay: Annotated[int, TICKS] = 0
-    noise: Annotated[float, RATIO] = 0.0
+    delay: Ticks = 0
+    noise: Ratio = 0.0
 
     varying = ("range", "delay", "noise")
     drive = "steering"
 
     @property
     def acts_at_rest(self) -> bool:
-        """True if it turns at its neutral command, or may with its noise."""
         return (self.neutral != STOPPED_COMMAND or self.noise > 0) and self.range != 0.0
 
     def row(self, body: BodyKind) -> Row:
-        """The largest angle, in radians, and its noise."""
         return {"turn": self.range, "noise": self.noise}
 
 
@@ -264,21 +253,19 @@ class Gripper(ActuatorKind):
     A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less.
     """
 
-    neutral: Annotated[float, RATIO]
-    reach: Annotated[float, LENGTH] = REACH_UNITS
-    delay: Annotated[int, TICKS] = 0
-    noise: Annotated[float, RATIO] = 0.0
+    neutral: Ratio
+    reach: Length = REACH_UNITS
+    delay: Ticks = 0
+    noise: Ratio = 0.0
 
     varying = ("delay", "noise")
     zero = 0.0
 
     @property
     def acts_at_rest(self) -> bool:
-        """True if it is closed at its neutral command, or may be with its noise."""
         return self.neutral + self.noise > CLOSED_COMMAND
 
     def row(self, body: BodyKind) -> Row:
-        """The columns of a gripper: reach in world units, and noise."""
         return {"reach": self.reach, "noise": self.noise}
 
 
@@ -290,8 +277,8 @@ class Servo(ActuatorKind):
     begins. A command acts `delay` ticks after the tick that computed it.
     """
 
-    neutral: Annotated[float, RATIO]
-    delay: Annotated[int, TICKS] = 0
+    neutral: Ratio
+    delay: Ticks = 0
     range: Annotated[float, HALF_TURN] = left_out(90 * DEGREE)
     speed: Annotated[float, TURNING] = left_out(360 * DEGREE)
 
@@ -299,7 +286,6 @@ class Servo(ActuatorKind):
     carries = True
 
     def row(self, body: BodyKind) -> Row:
-        """The largest angle, in radians, and how far it turns in a tick."""
         return {"turn": self.range, "speed": self.speed}
 
 
@@ -307,8 +293,8 @@ class Servo(ActuatorKind):
 class Lamp(ActuatorKind):
     """A lamp: 0 dark, 1 bright. It changes nothing in the simulated world, and pictures show it."""
 
-    neutral: Annotated[float, RATIO]
-    delay: Annotated[int, TICKS] = 0
+    neutral: Ratio
+    delay: Ticks = 0
 
     zero = 0.0
     is_light = True
@@ -323,15 +309,14 @@ class Action(ActuatorKind):
     The `range` is what the environment says, unless it is given, and has to be where the environment says none.
     """
 
-    action: Annotated[tuple[int, ...], INDEX]
-    neutral: Annotated[float, RATIO]
-    range: Annotated[Span, NUMBER] = UNSAID
-    part: Annotated[str, SLOT] = ""
-    delay: Annotated[int, TICKS] = 0
+    action: Indices
+    neutral: Ratio
+    range: Range = UNSAID
+    part: PartName = ""
+    delay: Ticks = 0
 
     @property
     def slot(self) -> Slot:
-        """The number of the environment's action that the arguments name."""
         return Slot(self.part, self.action, None if self.range == UNSAID else self.range)
 
 
@@ -343,12 +328,11 @@ class Choice(ActuatorKind):
     environment takes several at once (`MultiDiscrete`), the place stands before the number.
     """
 
-    choice: Annotated[tuple[int, ...], INDEX]
-    neutral: Annotated[float, RATIO]
-    part: Annotated[str, SLOT] = ""
-    delay: Annotated[int, TICKS] = 0
+    choice: Indices
+    neutral: Ratio
+    part: PartName = ""
+    delay: Ticks = 0
 
     @property
     def slot(self) -> Slot:
-        """The place at which it is chosen: the only one, where none is said."""
         return Slot(self.part, self.choice[:-1] or (0,), chosen=self.choice[-1])

@@ -100,12 +100,10 @@ class Round(BodyKind):
 
     @property
     def radius(self) -> float:
-        """Half of its size."""
         return self.size / 2
 
     @property
     def area(self) -> tuple[float, float]:
-        """π·r², the area of a disc, as its factors."""
         return pi, self.radius**2
 
     @property
@@ -128,28 +126,23 @@ class Rectangular(BodyKind):
 
     @property
     def outline(self) -> tuple[Point, ...]:
-        """The four corners in the body's frame, counterclockwise from the right one behind."""
         x, y = self.front, self.side
         return (-x, -y), (x, -y), (x, y), (-x, y)
 
     @property
     def radius(self) -> float:
-        """Half of its diagonal."""
         return hypot(*self.sides) / 2
 
     @property
     def front(self) -> float:
-        """Half of its length."""
         return self.sides[0] / 2
 
     @property
     def side(self) -> float:
-        """Half of its width."""
         return self.sides[1] / 2
 
     @property
     def area(self) -> tuple[float, float]:
-        """The two sides, whose product is the area."""
         return self.sides
 
     @property
@@ -158,7 +151,6 @@ class Rectangular(BodyKind):
         return self.sides[0] * self.sides[0] + self.sides[1] * self.sides[1], 12.0
 
     def rim(self, angle: float) -> float:
-        """The distance from the middle at which a ray leaves the rectangle."""
         ahead, aside = max(abs(cos(angle)), LEAST_COSINE), max(abs(sin(angle)), LEAST_COSINE)
         return min(self.front / ahead, self.side / aside)
 
@@ -222,5 +214,4 @@ class Car(Rectangular):
 
     @property
     def axle_distance(self) -> float:
-        """The share of its length."""
         return self.wheelbase * self.sides[0]

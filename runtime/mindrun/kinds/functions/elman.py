@@ -28,11 +28,9 @@ class Elman(NetworkFunction):
     opaque = "remembers what it computed"
 
     def state_length(self, inputs: int, outputs: int) -> int:
-        """One number for each hidden neuron: its last output."""
         return self.neurons(inputs, outputs)
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
-        """The hidden neurons' matrix, over the inputs and their own last outputs, and the outputs' matrix."""
         width = self.neurons(inputs, outputs)
         return ((inputs + width, width), (width, outputs)) if width else ()
 
@@ -43,7 +41,6 @@ class Elman(NetworkFunction):
         return of.product(said, last), said
 
     def scratch(self, inputs: int, outputs: int) -> int:
-        """One row for each neuron and each output."""
         return self.neurons(inputs, outputs) + outputs
 
     @staticmethod

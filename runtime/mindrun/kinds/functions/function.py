@@ -138,17 +138,14 @@ class NetworkFunction(Function):
 
     @property
     def derived(self) -> tuple[str, ...]:
-        """The width, where Eq. 5 says it."""
         return () if self.width else ("width",)
 
     def explicit(self, inputs: int, outputs: int) -> Self:
-        """The network with its width said, if it has a hidden neuron."""
         if len(self.matrix_shapes(inputs, outputs)) < 2:
             return self
         return replace(self, width=self.neurons(inputs, outputs))  # type: ignore[type-var]
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
-        """The number of neurons of a hidden layer, as `width`."""
         return {"width": self.neurons(inputs, outputs)}
 
     def draw(self, inputs: int, outputs: int, count: int, rng: np.random.Generator) -> Weights:
@@ -167,7 +164,6 @@ class NetworkFunction(Function):
     def widened(
         self, weights: Weights, before: tuple[int, int], now: Function, after: tuple[int, int]
     ) -> Weights | None:
-        """The genome in a larger one whose other weights are 0; None where a matrix is missing or smaller."""
         from mindrun.numbers.network import genome, matrices, padded
 
         small, large = self.matrix_shapes(*before), now.matrix_shapes(*after)
@@ -181,7 +177,6 @@ class NetworkFunction(Function):
         return genome(map(padded, found, large, cuts, places))
 
     def reordered(self, weights: Weights, inputs: Sequence[int], outputs: Sequence[int]) -> Weights:
-        """The columns of what reads the inputs and the rows of the last matrix in this order."""
         from mindrun.numbers.network import genome, matrices
 
         shapes = self.matrix_shapes(len(inputs), len(outputs))

@@ -32,11 +32,9 @@ class Gru(NetworkFunction):
     readers = 3
 
     def state_length(self, inputs: int, outputs: int) -> int:
-        """One number for each neuron: its last output."""
         return self.neurons(inputs, outputs)
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
-        """The matrices of the reset gates, the update gates, the candidates and the outputs, in this order."""
         width = self.neurons(inputs, outputs)
         return (*[(inputs + width, width)] * 3, (width, outputs)) if width else ()
 
@@ -50,7 +48,6 @@ class Gru(NetworkFunction):
         return of.product(said, last), said
 
     def scratch(self, inputs: int, outputs: int) -> int:
-        """One row for each of two gates and the candidate of every neuron, and for each output."""
         return 3 * self.neurons(inputs, outputs) + outputs
 
     @staticmethod

@@ -26,12 +26,10 @@ class Mlp(NetworkFunction):
     width: Annotated[int, WIDTH] = 0
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
-        """A matrix for each hidden layer, and the outputs'; none where the skill has no inputs or outputs."""
         widths = [self.neurons(inputs, outputs)] * self.hidden
         return tuple(pairwise((inputs, *widths, outputs))) if inputs and outputs else ()
 
     def forward(self, of: Terms, matrices: Sequence[Any], inputs: Any, state: Any) -> tuple[Any, Any]:
-        """Compute each layer from the one before: sigmoids of the sums, but for the last layer's."""
         *hidden, last = matrices
         values = inputs
         for matrix in hidden:
@@ -39,12 +37,10 @@ class Mlp(NetworkFunction):
         return of.product(values, last), state
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
-        """The number of hidden layers and their width; empty where it has none, or nothing to compute."""
         shapes = self.matrix_shapes(inputs, outputs)
         return {"hidden": self.hidden, "width": shapes[0][1]} if len(shapes) > 1 else {}
 
     def scratch(self, inputs: int, outputs: int) -> int:
-        """Rows for two layers, of which each is computed from the other by turns."""
         return 2 * max(self.neurons(inputs, outputs) if self.hidden else 0, outputs)
 
     @staticmethod

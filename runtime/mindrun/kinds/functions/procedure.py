@@ -34,11 +34,9 @@ class Procedure(Function):
 
     @property
     def calls(self) -> str:
-        """The Python function that it calls, as `module.function`."""
         return self.from_
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Sources) -> Compute:
-        """The Python function, in a module of its own."""
         from mindrun.kinds.procedure_call import RunningProcedure
 
         return RunningProcedure(self.from_, sources, outputs)

@@ -52,7 +52,6 @@ class Plain(SceneKind):
     """A world without borders; the robot starts in its origin."""
 
     def distances(self, least: float) -> tuple[float, float]:
-        """The least and the greatest distance, so that the robot can find the thing."""
         return MIN_DISTANCE_UNITS, MAX_DISTANCE_UNITS
 
 
@@ -67,7 +66,6 @@ class Arena(SceneKind):
 
     @property
     def sides(self) -> tuple[float, float]:
-        """The lengths of the world along x and y; a size of one number is both."""
         return self.size if isinstance(self.size, tuple) else (self.size, self.size)
 
 
@@ -79,5 +77,4 @@ class Gymnasium(SceneKind):
 
     @property
     def environment(self) -> str:
-        """The environment's name, as Gymnasium has it."""
         return self.gymnasium

@@ -34,25 +34,20 @@ class Broken(SensorKind):
 
     @property
     def sources(self) -> tuple[str, ...]:
-        """The sensors and memories of which something is maintained, each once."""
         return named(self.maintains)
 
     @property
     def formula(self) -> Formula:
-        """The condition that is maintained, in postfix order, with readings by their names."""
         return self.maintains
 
     def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
-        """A flaw where the condition is none, or names what has not a single reading."""
         is_one = self.maintains and is_condition(placed(self.maintains, dict.fromkeys(self.sources, 0)))
         return Computed(self.maintains if is_one else ()).flaw(widths, directions)
 
     def first(self, begin: Begin) -> Bounds:
-        """0: nothing has acted before."""
         return 0.0, 0.0
 
     def constant(self, world: WorldFacts) -> float | None:
-        """None: nobody knows when a skill acts."""
         return None
 
     def reader(self, scene: Scene) -> Reader:
@@ -70,7 +65,6 @@ class Broken(SensorKind):
         return read
 
     def row(self, scene: Scene) -> Row:
-        """The row of the skill's influence, as `source`."""
         return {"source": scene.skills[self.broken]}
 
     @staticmethod

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Physical
 from mindrun.kinds.things.thing import WorldFacts
-from mindrun.numbers.quantity import ANGLE, Quantity
+from mindrun.numbers.quantity import Angles, Quantity
 from mindrun.numbers.trigonometry import cosine, sine
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -40,7 +40,7 @@ class Bumper(Physical):
     Angles turn counterclockwise from straight ahead; each switch is `width` wide, half of it to either side.
     """
 
-    at: Annotated[tuple[float, ...], ANGLE] = (0.0,)
+    at: Angles = (0.0,)
     width_: Annotated[float, WIDTH] = pi / 4
 
     near = 1
@@ -48,7 +48,6 @@ class Bumper(Physical):
 
     @property
     def sector(self) -> float:
-        """The width of each switch."""
         return self.width_
 
     @property
@@ -57,12 +56,10 @@ class Bumper(Physical):
         return cosine(self.width_ / 2), *(f(angle) for angle in self.at for f in (cosine, sine))
 
     def constant(self, world: WorldFacts) -> float | None:
-        """0 in a world where nothing is solid, else None."""
         return None if world.is_solid else 0.0
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """Press the switches that the nearest point of a box, a wall or a loose thing touches."""
         half_x, half_y = t.world[0].half_x, t.world[0].half_y
         for p in range(n):
             for k in range(sensor.width):

@@ -1,11 +1,11 @@
 """What the claw can take, and what it holds."""
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Begin, Bounds, Physical
 from mindrun.kinds.things.thing import WorldFacts
-from mindrun.numbers.quantity import THING
+from mindrun.numbers.quantity import ThingName
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     from mindrun.numbers.arithmetic import ONE, ZERO, in_claw
@@ -15,7 +15,7 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 class Contact(Physical):
     """1 while the thing, or one of its name, is in the claw's reach, else 0."""
 
-    of: Annotated[str, THING]
+    of: ThingName
 
     near = 1
     # What a claw can take, push or catch.
@@ -23,7 +23,6 @@ class Contact(Physical):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """1 where the claw could take the thing."""
         world, out = t.world[0], s.readings[sensor.start]
         for p in range(n):
             out[p] = ZERO
@@ -37,23 +36,20 @@ class Contact(Physical):
 class Held(Physical):
     """1 while the claw holds the thing, or one of its name, else 0."""
 
-    of: Annotated[str, THING]
+    of: ThingName
 
     near = 1
     remedy = "Let a skill that acts drive a gripper"
     is_about = staticmethod(lambda kind: kind.can_be_held)  # what a claw can take
 
     def constant(self, world: WorldFacts) -> float | None:
-        """0 without the thing and where no claw ever closes, else None."""
         return Physical.constant(self, world) if world.can_hold else 0.0
 
     def first(self, begin: Begin) -> Bounds | None:
-        """0, since a claw begins empty; None where noise hides that."""
         return None if self.noise else (0.0, 0.0)
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """1 where the claw holds the thing."""
         for p in range(n):
             k = s.held[p] - sensor.thing
             s.readings[sensor.start, p] = ONE if k >= 0 and k < sensor.things else ZERO

@@ -34,12 +34,10 @@ class Computed(SensorKind):
 
     @property
     def sources(self) -> tuple[str, ...]:
-        """The sensors and memories that the expression names, each once."""
         return named(self.at)
 
     @property
     def formula(self) -> Formula:
-        """The expression that it computes, in postfix order, with readings by their names."""
         return self.at
 
     def goes_round(self, directions: Collection[str]) -> bool:
@@ -64,14 +62,12 @@ class Computed(SensorKind):
         return fold(self.at, leaf, lambda count: None if count is None else -count, combined) in (1, -1)
 
     def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
-        """A flaw where the expression is not whole, or names what has not a single reading."""
         starts = dict.fromkeys(self.sources, 0)
         if not (is_valid_program(placed(self.at, starts)) and all(widths.get(name) == 1 for name in self.sources)):
             return Flaw("wide-reading", "at", "It has an expression that cannot be computed.", "Read single readings.")
         return None
 
     def constant(self, world: WorldFacts) -> float | None:
-        """The value of an expression that names no reading; None where it names one, or is no finite number."""
         if self.sources:
             return None
         value = single(evaluate(placed(self.at, {})))
@@ -95,7 +91,6 @@ class Computed(SensorKind):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """Run the program over all lanes in float64, and clamp as `reader` does."""
         codes, out = t.codes[sensor.code : sensor.code + sensor.length], s.readings[sensor.start]
         run_program(codes, s.readings, s.stack, s.readings, 0, s.stack, s.active, n, True)
         for p in range(n):

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Begin, Bounds, Physical
-from mindrun.numbers.quantity import THING, Quantity
+from mindrun.numbers.quantity import Quantity, ThingName
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     from mindrun.numbers.arithmetic import COSINE, ONE, SINE, ZERO, X, Y, inside, place_of, size_of
@@ -14,19 +14,17 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 class Inside(Physical):
     """1 while the robot's centre is inside the thing, or one of its name, else 0."""
 
-    of: Annotated[str, THING]
+    of: ThingName
 
     is_about = staticmethod(lambda kind: kind.is_area)  # what lies on the floor
 
     def first(self, begin: Begin) -> Bounds | None:
-        """1 where the robot begins inside of the thing, 0 where not; None where noise hides that, or it is drawn."""
         there = {None if self.noise else begin.is_within(thing) for thing in self.things}
         is_in = True if True in there else None if None in there else False
         return None if is_in is None else (float(is_in), float(is_in))
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """1 where the robot's centre is in the square of the thing."""
         out = s.readings[sensor.start]
         for p in range(n):
             out[p] = ZERO
@@ -46,7 +44,7 @@ class Floor(Physical):
     They stand on a bar across the robot, `ahead` of its middle; `at` says how far to the left of the middle each is.
     """
 
-    of: Annotated[str, THING]
+    of: ThingName
     at: Annotated[tuple[float, ...], OFFSET] = (0.0,)
     ahead: Annotated[float, OFFSET] = 0.0
 
@@ -55,7 +53,6 @@ class Floor(Physical):
 
     @property
     def spots(self) -> tuple[tuple[float, float], ...]:
-        """The point of each reading on the bar: x ahead of the body's middle, y to its left."""
         return tuple((self.ahead, left) for left in self.at)
 
     @property
@@ -65,7 +62,6 @@ class Floor(Physical):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """1 where a point of the body's frame, turned into the world, lies on one of the things."""
         ahead = t.numbers[sensor.number]
         for k in range(sensor.width):
             out, left = s.readings[sensor.start + k], t.numbers[sensor.number + 1 + k]

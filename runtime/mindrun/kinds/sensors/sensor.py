@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Set
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from mindrun.kinds.environment import OfEnvironment
 from mindrun.kinds.registry import arguments, base, named_arguments
 from mindrun.kinds.things.about import AboutThing
 from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.expression import Formula
-from mindrun.numbers.quantity import ANGLE, RATIO, SENSOR, SERVO, TICKS
+from mindrun.numbers.quantity import ANGLE, SENSOR, SERVO, Ratio, Ticks
 
 if TYPE_CHECKING:
     from mindrun.kinds.actuators.actuator import ActuatorKind
@@ -227,10 +227,10 @@ class Physical(SensorKind):
     `delay` ticks old.
     """
 
-    noise: Annotated[float, RATIO] = 0.0
-    lost: Annotated[float, RATIO] = 0.0
-    every: Annotated[int, TICKS] = 1
-    delay: Annotated[int, TICKS] = 0
+    noise: Ratio = 0.0
+    lost: Ratio = 0.0
+    every: Ticks = 1
+    delay: Ticks = 0
 
     is_given = True
     varying = ("noise", "lost", "delay")

@@ -28,11 +28,9 @@ class Clock(SensorKind):
     remedy = "Give it a period of more than a tick"
 
     def constant(self, world: WorldFacts) -> float | None:
-        """0 where each tick begins a period, else None."""
         return 0.0 if self.period == world.tick else None
 
     def reader(self, scene: Scene) -> Reader:
-        """t/period without its whole part, t in seconds since the first tick."""
         import numpy as np
 
         period = self.period / scene.tick
@@ -45,7 +43,6 @@ class Clock(SensorKind):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """t/T − ⌊t/T⌋."""
         out = s.readings[sensor.start]
         for p in range(n):
             turned = s.tick[p] / sensor.period
@@ -62,12 +59,10 @@ class Sine(SensorKind):
     remedy = "Give it a period of more than two ticks"
 
     def constant(self, world: WorldFacts) -> float | None:
-        """0.5 where every tick meets the wave there: it lasts one tick or two, or goes round in a part of one."""
         halves = 2 * world.tick / self.period
         return 0.5 if halves > 0.5 and isclose(halves, round(halves)) else None
 
     def reader(self, scene: Scene) -> Reader:
-        """0.5 + 0.5 sin(2πt/period), t in seconds since the first tick."""
         import numpy as np
 
         period = self.period / scene.tick
@@ -80,7 +75,6 @@ class Sine(SensorKind):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """0.5 + 0.5 sin(2πt/T)."""
         out = s.readings[sensor.start]
         for p in range(n):
             turns = s.tick[p] / sensor.period

@@ -20,7 +20,6 @@ class Aiming(AboutThing):
 
     @property
     def thing(self) -> str:
-        """The name of what it seeks or flees; empty where it does neither."""
         return self.seeks or self.flees
 
     def aim_mistake(self) -> ThingMistake | None:

@@ -9,11 +9,12 @@ from mindrun.kinds.registry import arguments, base, kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.numbers.quantity import (
     COORDINATE,
-    COUNT,
-    LENGTH,
     THING,
     UNSAID,
+    Count,
+    Lengths,
     Place,
+    Places,
     Reference,
     Region,
     Span,
@@ -267,12 +268,12 @@ class ThingKind:
 class Placed(ThingKind):
     """A thing that touches nothing, and stays in its place until it is reached."""
 
-    size: Annotated[Span, LENGTH] = DEFAULT_SIZE
-    away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
-    at: Annotated[tuple[Place, ...], COORDINATE] = ()
+    size: Lengths = DEFAULT_SIZE
+    away: Lengths = DEFAULT_DISTANCE
+    at: Places = ()
     or_: Annotated[Alternatives, COORDINATE] = left_out(())
     within: Annotated[Region, THING] = left_out("")
-    count: Annotated[int, COUNT] = 1
+    count: Count = 1
     reached: Annotated[Outcome, OUTCOME] = STAYS
 
 
