@@ -15,12 +15,14 @@ import numpy as np
 from mindrun.graph.graph import Graph, Program, Promise, Skill
 from mindrun.graph.skill_sets import reachable
 from mindrun.graph.weights import Weights
+from mindrun.numbers.expression import leaves
 from networkx import DiGraph
+from numpy.typing import NDArray
 
 from mindlang.compiler.hierarchy import with_ancestors
-from mindlang.proofs.branch_and_bound import by_itself, halves, sway_of
-from mindlang.proofs.interval import Boxes, Singles, expression_bounds, is_known, join_boxes, select_boxes, whole_box
-from mindlang.proofs.reach import BOXES_PER_ROUND, MAX_BOX_SKILLS, MAX_BOXES, ProvedReach, flow
+from mindlang.proofs.branch_and_bound import can_close
+from mindlang.proofs.interval import Boxes, Singles, expression_bounds, is_known, whole_box
+from mindlang.proofs.reach import MAX_BOX_SKILLS, MAX_BOXES, ProvedReach, flow, sway_of_all
 from mindlang.proofs.trying import TRIED_READINGS, readings_to_try, think_rows
 
 Claim = Literal["always", "can be broken", "not excluded"]
@@ -66,7 +68,7 @@ def _cells(graph: Graph, above: list[Skill], program: Program) -> Boxes:
         for (word, row), (other, number), (compare, _) in zip(each, each[1:], each[2:], strict=False):
             if (word, other) == ("reading", "number") and compare in COMPARISONS and 0 < number < 1:
                 ends.setdefault(int(row), set()).add(float(np.float32(number)))
-    ends = {row: its for row, its in ends.items() if row in {int(x) for word, x in program if word == "reading"}} | ends
+    ends = {row: its for row, its in ends.items() if row in leaves(program, "reading")} | ends
     sides: dict[int, list[tuple[float, float]]] = {}
     for row, its in ends.items():
         marks = [np.float32(mark) for mark in sorted(its)]
@@ -105,22 +107,11 @@ def _may_break(
     above: list[Skill],
 ) -> bool:
     """False if in all boxes, cut as often as that helps, the skill has no influence or the program holds."""
-    sway = np.zeros(graph.width, np.float32)
-    sway[[int(x) for word, x in program if word == "reading"]] = 1
-    for each in above:
-        sway[list(each.inputs)] += sway_of(by_itself(each), weights.get(each.owner))
-    waiting, made, most = cells, len(cells.low), min(MAX_BOXES, MAX_BOX_SKILLS // len(found.edges)) + len(cells.low)
-    while len(waiting.low):
-        now = select_boxes(waiting, slice(BOXES_PER_ROUND))
-        waiting = select_boxes(waiting, slice(BOXES_PER_ROUND, None))
-        holds = _bounds(program, now)[0] > 0
-        open_ = select_boxes(now, (flow(graph, weights, found, now).high[:, skill] > 0) & ~holds)
-        made += 2 * len(open_.low)
-        if len(open_.low) and (made > most or not ((open_.high - open_.low) * sway).max(axis=1).all()):
-            return True
-        if len(open_.low):
-            cut = halves(open_, sway)
-            if (cut.low == cut.high).all(axis=1).any():
-                return True
-            waiting = join_boxes(cut, waiting)
-    return False
+    sway = sway_of_all(graph, above, weights, program)
+    most = min(MAX_BOXES, MAX_BOX_SKILLS // len(found.edges)) + len(cells.low)
+
+    def is_open(boxes: Boxes) -> NDArray[np.bool_]:
+        acts = flow(graph, weights, found, boxes).high[:, skill] > 0
+        return acts & ~(_bounds(program, boxes)[0] > 0)
+
+    return not can_close(cells, sway, most, is_open)

@@ -9,24 +9,25 @@ its rounding: with n drivers a share of at most (2n + 1)·2^−24, for which ROU
 are left.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
+from typing import NamedTuple
 
 import numpy as np
-from mindrun.graph.graph import Graph, Skill
+from mindrun.graph.graph import Graph, Program, Skill
 from mindrun.graph.weights import Weights, reachable
+from mindrun.numbers.expression import leaves
 from numpy.typing import NDArray
 
-from mindlang.proofs.branch_and_bound import EdgeRange, by_itself, halves, ranges, sway_of
-from mindlang.proofs.interval import Boxes, SentBounds, Singles, join_boxes, select_boxes, sent_bounds, whole_box
+from mindlang.proofs.branch_and_bound import EdgeRange, by_itself, can_close, ranges, sway_of
+from mindlang.proofs.interval import Boxes, SentBounds, Singles, sent_bounds, whole_box
 
 Bools = NDArray[np.bool_]
 MAX_SKILL_BOXES, MAX_TOTAL_BOXES = 20_000, 500_000  # for one skill, for all of them
 ROUNDING_MARGIN = 2.0**-22
 MAX_BOXES, MIN_BOXES, MAX_BOX_SKILLS = 8192, 16, 100_000  # of all readings: boxes, and boxes times skills
-BOXES_PER_ROUND = 256
 MAX_CHOICES = 64  # that all skills make together, which are looked at one by one
 MIN_INFLUENCE = 1e-30  # below this, influence is so small that rounding alone may decide a command
 
@@ -61,8 +62,7 @@ class ProvedReach:
     actuators: tuple[Driven, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class InfluenceBounds:
+class InfluenceBounds(NamedTuple):
     """Bounds of the influence of each skill [boxes, skills], and of Σ influence of each actuator [boxes, actuators]."""
 
     low: Singles
@@ -115,12 +115,8 @@ def influence_bounds(graph: Graph, boxes: int, sends: Callable[[Skill], SentBoun
         can_be = np.logical_and.reduce([possible for possible, _ in made])[:, None]
         names = (skill.name for skill in choosing)
         case = _sums(graph, boxes, sent | dict(zip(names, (bounds for _, bounds in made), strict=True)))
-        found = InfluenceBounds(
-            np.where(can_be, np.minimum(found.low, case.low), found.low),
-            np.where(can_be, np.maximum(found.high, case.high), found.high),
-            np.where(can_be, np.minimum(found.total_low, case.total_low), found.total_low),
-            np.where(can_be, np.maximum(found.total_high, case.total_high), found.total_high),
-        )
+        wider = zip((np.minimum, np.maximum) * 2, found, case, strict=True)
+        found = InfluenceBounds(*(np.where(can_be, widest(so_far, here), so_far) for widest, so_far, here in wider))
     return found
 
 
@@ -186,26 +182,27 @@ def tighten(
 
 def _least(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, actuator: int, most: int) -> float:
     """The least Σ influence of an actuator over boxes that cover all readings; 0 where that would take too many."""
-    sway = np.zeros(graph.width, np.float32)  # how much each reading moves what all skills send, roughly
-    for skill in reachable(graph, graph.master):
+    least = np.inf
+
+    def is_open(boxes: Boxes) -> Bools:
+        nonlocal least
+        low = flow(graph, weights, found, boxes).total_low[:, actuator]
+        least = min(least, float(low.min(initial=np.inf, where=low > 0)))
+        return low <= 0
+
+    sway = sway_of_all(graph, reachable(graph, graph.master), weights)
+    return least if can_close(whole_box(graph.width), sway, most, is_open) else 0.0
+
+
+def sway_of_all(
+    graph: Graph, skills: Iterable[Skill], weights: Mapping[str, Weights], program: Program = ()
+) -> Singles:
+    """How much each of all readings moves what some skills send, and the program, roughly."""
+    sway = np.zeros(graph.width, np.float32)
+    sway[[*leaves(program, "reading")]] = 1
+    for skill in skills:
         sway[list(skill.inputs)] += sway_of(by_itself(skill), weights.get(skill.owner))
-    waiting = whole_box(graph.width)
-    least, made = np.inf, 1
-    while len(waiting.low):
-        now = select_boxes(waiting, slice(BOXES_PER_ROUND))
-        waiting = select_boxes(waiting, slice(BOXES_PER_ROUND, None))
-        low = flow(graph, weights, found, now).total_low[:, actuator]
-        is_open = low <= 0
-        made += 2 * int(is_open.sum())
-        if made > most or not sway.any():
-            return 0.0
-        least = min(least, float(low[~is_open].min(initial=np.inf)))
-        if is_open.any():
-            cut = halves(select_boxes(now, is_open), sway)
-            if (cut.low == cut.high).any():
-                return 0.0  # between neighbours of float32 nothing is left to cut
-            waiting = join_boxes(cut, waiting)
-    return least
+    return sway
 
 
 def flow(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, boxes: Boxes) -> InfluenceBounds:

@@ -115,7 +115,7 @@ def _example(graph: Graph, tried: Tried) -> Data | None:
 def readings_by_name(graph: Graph, readings: Singles) -> dict[str, list[float]]:
     """Readings [graph.width] by sensor and memory."""
     values = readings.tolist()
-    found = {sensor.name: values[sensor.start : sensor.start + sensor.width] for sensor in graph.sensors}
+    found = {sensor.name: values[sensor.place] for sensor in graph.sensors}
     return found | {memory.name: [values[memory.start]] for memory in graph.memories}
 
 

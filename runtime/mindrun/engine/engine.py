@@ -35,7 +35,7 @@ def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> 
 def scene_of(graph: Graph) -> Scene:
     """The scene of a graph's sensors: all that they depend on beside their own arguments."""
     places = {memory.name: slice(memory.start, memory.start + 1) for memory in graph.memories}
-    places |= {sensor.name: slice(sensor.start, sensor.start + sensor.width) for sensor in graph.sensors}
+    places |= {sensor.name: sensor.place for sensor in graph.sensors}
     around = directions({sensor.name: sensor.kind for sensor in graph.sensors})
     return Scene(graph.tick, places, around, graph.skill_numbers)
 

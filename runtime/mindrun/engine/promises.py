@@ -6,15 +6,12 @@ sensed what came of it. What it `achieves` is judged in the first tick in which 
 before. What depends on a reading that is no number is not judged.
 """
 
-from functools import partial
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph.graph import Graph, Promise, Skill
 from mindrun.graph.skill_sets import reachable
-from mindrun.numbers.arrays import evaluate_rows
+from mindrun.numbers.arrays import columns, evaluate_rows
 
 NOT_JUDGED, HELD, BY_SKILL, BY_INFLUENCE = range(4)  # what became of a promise in a tick: both last are broken
 Singles = NDArray[np.float32]
@@ -57,7 +54,7 @@ class PromiseWatcher:
         if not len(acts):
             return found
         was = np.concatenate([[acted], acts[:-1]])
-        values = [evaluate_rows(each.when, partial(_column, readings), len(acts)) for each in skill.promises]
+        values = [evaluate_rows(each.when, columns(readings), len(acts)) for each in skill.promises]
         unmet = np.zeros(len(acts), bool)
         for each, value in zip(skill.promises, values, strict=True):
             unmet |= acts & (value == 0) & (each.word == "requires")
@@ -71,8 +68,3 @@ class PromiseWatcher:
             judged = np.where(value > 0, HELD, np.where(value == 0, broken, NOT_JUDGED))
             found[:, i] = np.where(due[each.word], judged, NOT_JUDGED)
         return found
-
-
-def _column(readings: Singles, word: str, operand: Any) -> Any:
-    """The value of a number or a reading in each row, float64 as in the engine."""
-    return readings[:, int(operand)].astype(np.float64) if word == "reading" else np.float64(operand)

@@ -34,6 +34,11 @@ class Sensor:
     start: int
     width: int
 
+    @property
+    def place(self) -> slice:
+        """The place of its readings in that vector."""
+        return slice(self.start, self.start + self.width)
+
 
 @dataclass(frozen=True, slots=True)
 class Memory:
@@ -357,9 +362,4 @@ class Graph(ShortRepr):
 
     def named(self, noun: Receiver, index: int) -> str:
         """The name of the "skill", "actuator" or "memory" that an edge goes to by its index."""
-        match noun:
-            case "skill":
-                return self.skills[index].name
-            case "actuator":
-                return self.actuators[index].name
-        return self.memories[index].name
+        return {"skill": self.skills, "actuator": self.actuators, "memory": self.memories}[noun][index].name

@@ -50,7 +50,7 @@ def rows_of(graph: Graph, sensors: Iterable[Sensor]) -> NDArray[np.bool_]:
 
     found = np.zeros(graph.width, bool)
     for each in sensors:
-        found[each.start : each.start + each.width] = True
+        found[each.place] = True
     found[[memory.start for memory in graph.memories]] = True
     return found
 

@@ -4,7 +4,7 @@ import json
 import re
 import zlib
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Annotated, Any, Self
 
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mindrun.errors import MindError
 from mindrun.files.strict_json import are_names, is_whole, parsed
-from mindrun.graph.codec import decode
+from mindrun.graph.codec import decode, encode
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.named_readings import physical
 from mindrun.graph.validate import MAX_TICK_SECONDS, MIN_TICK_SECONDS
@@ -139,14 +139,14 @@ class About:
 
 
 NAME_LISTS = ("sensors", "actuators", "skills")
-SAID_FIELDS = ("bundle", "master", "tick", *NAME_LISTS, "readings")
 
 
 def line_of(about: About) -> bytes:
     """The first line; RecordingError where it would be longer than one that is read."""
-    said = {"format": FORMAT, **{name: getattr(about, name) for name in SAID_FIELDS}}
-    world = {"world": asdict(about.world)} if about.world else {}
-    line = _sealed(json.dumps(said | world, allow_nan=False).encode()[:-1] + CHECKSUM_FIELD)
+    said = {"format": FORMAT, **encode(about)}
+    if about.world is None:
+        del said["world"]
+    line = _sealed(json.dumps(said, allow_nan=False).encode()[:-1] + CHECKSUM_FIELD)
     if len(line) > MAX_HEADER_BYTES:
         raise RecordingError("this world has too many things and obstacles to be recorded")
     return line
@@ -160,7 +160,7 @@ def about_of_line(line: bytes, path: Path) -> About:
             raise ValueError(_foreign(plain))
         if line != _sealed(line):
             raise RecordingError(f"{path} is damaged in its first line")
-        found = _typed({name: plain.get(name) for name in SAID_FIELDS})
+        found = _typed({each.name: plain.get(each.name) for each in fields(About)})
         return replace(found, world=_world(plain["world"])) if "world" in plain else found
     except ValueError as error:
         raise RecordingError(f"{path} is no recording of this mindrun: {error}") from error

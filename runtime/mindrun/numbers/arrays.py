@@ -48,6 +48,11 @@ OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
 }  # fmt: skip
 
 
+def columns(readings: Readings) -> Leaf:
+    """The leaves of expressions over readings [rows, width], float64 as in the engine."""
+    return lambda word, x: readings[:, int(x)].astype(np.float64) if word == "reading" else np.float64(x)
+
+
 def evaluate_rows(program: Program, leaf: Leaf, rows: int) -> NDArray[np.float64]:
     """The value of an expression in each of so many rows, `leaf` giving those of its readings [rows]."""
     with np.errstate(all="ignore"):

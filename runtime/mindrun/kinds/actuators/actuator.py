@@ -8,8 +8,8 @@ from mindrun.kinds.bodies.body import BodyKind, Drive, Point
 from mindrun.kinds.environment import OfEnvironment, Slot
 from mindrun.kinds.registry import base, kind, left_out
 from mindrun.numbers.quantity import (
-    ANGLE,
     UNSAID,
+    Angle,
     Indices,
     Length,
     PartName,
@@ -26,6 +26,7 @@ Side = Literal["left", "right"]
 Row = Mapping[str, float]  # columns of the lanes' table of actuators
 
 THRUST = Quantity("a force", {"": 1.0}, low=-1e6, high=1e6)
+Thrust = Annotated[float, THRUST]
 STOPPED_COMMAND = 0.5  # command, at which what drives does not push
 
 
@@ -47,6 +48,8 @@ class ActuatorKind(OfEnvironment):
     carries = False  # whether a sensor can sit on it and turn with it
     is_light = False  # whether it shines with its command
     reach: float | None = None  # ahead of the body, within which it takes items, in world units; None where none
+    mounted: Side | None = None  # the side of the body that it is on, where that says what it does
+    acts_at_rest = False  # whether its neutral command does something in the world
 
     @property
     def moves_body(self) -> bool:
@@ -54,19 +57,9 @@ class ActuatorKind(OfEnvironment):
         return self.drive is not None
 
     @property
-    def mounted(self) -> Side | None:
-        """The side of the body that it is on, where that says what it does."""
-        return None
-
-    @property
     def can_hold(self) -> bool:
         """True if it can close around an item."""
         return self.reach is not None
-
-    @property
-    def acts_at_rest(self) -> bool:
-        """True if its neutral command does something in the world."""
-        return False
 
     @property
     def zero(self) -> float:
@@ -104,7 +97,7 @@ class Pushing(ActuatorKind):
         return 1.0, 0.0
 
     @property
-    def acts_at_rest(self) -> bool:
+    def acts_at_rest(self) -> bool:  # type: ignore[override]
         return (self.neutral != STOPPED_COMMAND or self.noise > 0) and self.thrust != 0.0
 
     def row(self, body: BodyKind) -> Row:
@@ -144,7 +137,7 @@ class Wheel(Rolling):
 
     side: Annotated[Side, SIDE]
     neutral: Ratio
-    thrust: Annotated[float, THRUST] = 80.0
+    thrust: Thrust = 80.0
     delay: Ticks = 0
     noise: Ratio = 0.0
     slip: Ratio = 0.0
@@ -153,7 +146,7 @@ class Wheel(Rolling):
     drive = "wheel"
 
     @property
-    def mounted(self) -> Side:
+    def mounted(self) -> Side:  # type: ignore[override]
         return self.side
 
     def place(self, body: BodyKind) -> Point:
@@ -173,8 +166,8 @@ class Thruster(Pushing):
 
     neutral: Ratio
     at: Annotated[Place, PLACE] = (0.0, 0.0)
-    facing: Annotated[float, ANGLE] = 0.0
-    thrust: Annotated[float, THRUST] = 80.0
+    facing: Angle = 0.0
+    thrust: Thrust = 80.0
     delay: Ticks = 0
     noise: Ratio = 0.0
     slip: Ratio = 0.0
@@ -203,7 +196,7 @@ class Motor(Rolling):
     """
 
     neutral: Ratio
-    thrust: Annotated[float, THRUST] = 160.0
+    thrust: Thrust = 160.0
     delay: Ticks = 0
     noise: Ratio = 0.0
     slip: Ratio = 0.0
@@ -234,7 +227,7 @@ class Steering(ActuatorKind):
     drive = "steering"
 
     @property
-    def acts_at_rest(self) -> bool:
+    def acts_at_rest(self) -> bool:  # type: ignore[override]
         return (self.neutral != STOPPED_COMMAND or self.noise > 0) and self.range != 0.0
 
     def row(self, body: BodyKind) -> Row:
@@ -262,7 +255,7 @@ class Gripper(ActuatorKind):
     zero = 0.0
 
     @property
-    def acts_at_rest(self) -> bool:
+    def acts_at_rest(self) -> bool:  # type: ignore[override]
         return self.neutral + self.noise > CLOSED_COMMAND
 
     def row(self, body: BodyKind) -> Row:
@@ -316,7 +309,7 @@ class Action(ActuatorKind):
     delay: Ticks = 0
 
     @property
-    def slot(self) -> Slot:
+    def slot(self) -> Slot:  # type: ignore[override]
         return Slot(self.part, self.action, None if self.range == UNSAID else self.range)
 
 
@@ -334,5 +327,5 @@ class Choice(ActuatorKind):
     delay: Ticks = 0
 
     @property
-    def slot(self) -> Slot:
+    def slot(self) -> Slot:  # type: ignore[override]
         return Slot(self.part, self.choice[:-1] or (0,), chosen=self.choice[-1])

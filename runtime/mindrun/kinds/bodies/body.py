@@ -2,15 +2,15 @@
 
 from dataclasses import dataclass
 from math import cos, hypot, pi, sin
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from mindrun.kinds.registry import base, kind
 from mindrun.numbers.quantity import Extent, Quantity
 
 DIAMETER = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1000.0)
-DENSITY = Quantity("a density", {"": 1.0}, low=1e-3, high=1e6)
-FRICTION = Quantity("a coefficient of friction", {"": 1.0}, low=0.0, high=100.0)
-DAMPING = Quantity("a damping", {"": 1.0}, low=0.0, high=1e6)
+Density = Annotated[float, Quantity("a density", {"": 1.0}, low=1e-3, high=1e6)]
+Friction = Annotated[float, Quantity("a coefficient of friction", {"": 1.0}, low=0.0, high=100.0)]
+Damping = Annotated[float, Quantity("a damping", {"": 1.0}, low=0.0, high=1e6)]
 FRICTION_COEFFICIENT = 0.2  # Box2D's default; elasticity is 0 in both engines
 LINEAR_DAMPING, ANGULAR_DAMPING = 5.0, 20.0  # per second
 LEAST_COSINE = 1e-9  # of a direction that meets a side
@@ -20,33 +20,21 @@ Point = tuple[float, float]  # x ahead of the middle, y to its left
 
 
 @base("body")
+@dataclass(frozen=True, slots=True, kw_only=True)
 class BodyKind:
-    """A solid body that looks along its x axis; a kind says what is different about it.
+    """A solid body that looks along its x axis, with what any has: every tick it loses motion, as the dampings say."""
 
-    Every kind has the arguments `density`, `friction` (against what it touches), `linear_damping` and
-    `angular_damping`: every tick of length dt its velocity is divided by 1 + dt·damping.
-    """
+    density: Density = 2.0
+    friction: Friction = FRICTION_COEFFICIENT
+    linear_damping: Damping = LINEAR_DAMPING
+    angular_damping: Damping = ANGULAR_DAMPING
 
-    __slots__ = ()
-
-    density: float
-    friction: float
-    linear_damping: float
-    angular_damping: float
-
-    # The arguments that can differ from run to run.
-    varying: tuple[str, ...] = ("density", "friction", "linear_damping", "angular_damping")
-    drives: tuple[Drive, ...] = ()  # what can move it
-
-    @property
-    def outline(self) -> tuple[Point, ...]:
-        """The corners in the body's frame, counterclockwise; none where it is round."""
-        return ()
-
-    @property
-    def axle_distance(self) -> float:
-        """The distance between two axles that do not slip sideways; 0 where it has none."""
-        return 0.0
+    varying = ("density", "friction", "linear_damping", "angular_damping")  # that can differ from run to run
+    drives: ClassVar[tuple[Drive, ...]] = ()  # what can move it
+    outline: ClassVar[
+        tuple[Point, ...]
+    ] = ()  # the corners in the body's frame, counterclockwise; none where it is round
+    axle_distance = 0.0  # between two axles that do not slip sideways; 0 where it has none
 
     @property
     def radius(self) -> float:
@@ -93,10 +81,6 @@ class Round(BodyKind):
     """A disc of diameter `size`."""
 
     size: Annotated[float, DIAMETER] = 2.0
-    density: Annotated[float, DENSITY] = 2.0
-    friction: Annotated[float, FRICTION] = FRICTION_COEFFICIENT
-    linear_damping: Annotated[float, DAMPING] = LINEAR_DAMPING
-    angular_damping: Annotated[float, DAMPING] = ANGULAR_DAMPING
 
     @property
     def radius(self) -> float:
@@ -125,7 +109,7 @@ class Rectangular(BodyKind):
         return self.size if isinstance(self.size, tuple) else (self.size, self.size)
 
     @property
-    def outline(self) -> tuple[Point, ...]:
+    def outline(self) -> tuple[Point, ...]:  # type: ignore[override]
         x, y = self.front, self.side
         return (-x, -y), (x, -y), (x, y), (-x, y)
 
@@ -183,10 +167,6 @@ class Box(Rectangular):
     """
 
     size: Annotated[Extent, DIAMETER] = (3.0, 2.0)
-    density: Annotated[float, DENSITY] = 2.0
-    friction: Annotated[float, FRICTION] = FRICTION_COEFFICIENT
-    linear_damping: Annotated[float, DAMPING] = LINEAR_DAMPING
-    angular_damping: Annotated[float, DAMPING] = ANGULAR_DAMPING
 
     drives = ("wheel", "thruster")
 
@@ -205,13 +185,9 @@ class Car(Rectangular):
 
     size: Annotated[Extent, DIAMETER] = (3.0, 2.0)
     wheelbase: Annotated[float, WHEELBASE] = 0.6
-    density: Annotated[float, DENSITY] = 2.0
-    friction: Annotated[float, FRICTION] = FRICTION_COEFFICIENT
-    linear_damping: Annotated[float, DAMPING] = LINEAR_DAMPING
-    angular_damping: Annotated[float, DAMPING] = ANGULAR_DAMPING
 
     drives = ("motor", "steering")
 
     @property
-    def axle_distance(self) -> float:
+    def axle_distance(self) -> float:  # type: ignore[override]
         return self.wheelbase * self.sides[0]

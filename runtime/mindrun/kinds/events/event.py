@@ -7,8 +7,7 @@ from typing import Annotated, NamedTuple, Protocol
 
 from mindrun.kinds.registry import base, kind, left_out, phrase
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.about import AboutThing
-from mindrun.kinds.things.thing import ThingKind, WorldFacts
+from mindrun.kinds.things.thing import AboutThing, ThingKind, WorldFacts
 from mindrun.numbers.quantity import Quantity, Reference, ThingName
 
 Row = Mapping[str, float]  # columns of the lanes' table of events

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Protocol, Self, runtime_checkable
+from typing import TYPE_CHECKING, Annotated, Any, Protocol, Self, runtime_checkable
 
 from mindrun.kinds.registry import base, kind
 from mindrun.numbers.quantity import Quantity
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from mindrun.numbers.arrays import Compute, Layers, Weights
     from mindrun.numbers.network import Terms
 
-WIDTH = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
+Width = Annotated[int, Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)]
 # Of the weights that learning begins with, 4: without biases, small weights leave every sigmoid near 1/2. Tried on a
 # stand-in for GoToObject, 6 seeds each, until 17 targets: with 1 one seed got there in 100 M ticks, with 2 all by the
 # 10th generation, with 4 five in the first; 6 (until 22 targets) was no better than 4.
@@ -42,16 +42,8 @@ class Function:
     learns = False
     has_outputs = True  # whether edges without `at` can send one
     opaque = ""  # why nothing can be proved of its outputs, even with its weights
-
-    @property
-    def calls(self) -> str | None:
-        """The Python function that it calls, `module.function`, whose text belongs to the mind, if it calls one."""
-        return None
-
-    @property
-    def derived(self) -> tuple[str, ...]:
-        """The arguments that nobody has said and that follow from what its skill reads and sends."""
-        return ()
+    calls: str | None = None  # the Python function whose text belongs to the mind, `module.function`, if it calls one
+    derived: tuple[str, ...] = ()  # arguments that nobody said and that follow from what its skill reads and sends
 
     def explicit(self, inputs: int, outputs: int) -> Self:
         """The function with every argument said that follows from its inputs and outputs."""
@@ -137,7 +129,7 @@ class NetworkFunction(Function):
         return (self.width or max(inputs, outputs) + 2) if inputs and outputs else 0
 
     @property
-    def derived(self) -> tuple[str, ...]:
+    def derived(self) -> tuple[str, ...]:  # type: ignore[override]
         return () if self.width else ("width",)
 
     def explicit(self, inputs: int, outputs: int) -> Self:

@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.kinds.functions.function import WIDTH, NetworkFunction
+from mindrun.kinds.functions.function import NetworkFunction, Width
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
 
 if TYPE_CHECKING:  # a lane is given its terms when it is compiled
-    from mindrun.numbers.arithmetic import LANES, ZERO, load, sigmoids, splat, store
+    from mindrun.numbers.arithmetic import *
     from mindrun.numbers.arrays import Layers
     from mindrun.numbers.network import Terms
 
@@ -23,7 +23,7 @@ class Mlp(NetworkFunction):
     """A perceptron with `hidden` layers of `width` neurons (0: Eq. 5, max(inputs, outputs) + 2)."""
 
     hidden: Annotated[int, HIDDEN] = 2
-    width: Annotated[int, WIDTH] = 0
+    width: Width = 0
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
         widths = [self.neurons(inputs, outputs)] * self.hidden

@@ -33,7 +33,7 @@ class Procedure(Function):
     opaque = "is Python code"
 
     @property
-    def calls(self) -> str:
+    def calls(self) -> str:  # type: ignore[override]
         return self.from_
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Sources) -> Compute:

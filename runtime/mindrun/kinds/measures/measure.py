@@ -5,7 +5,7 @@ from math import inf
 from typing import Annotated
 
 from mindrun.kinds.registry import base, kind, left_out
-from mindrun.kinds.things.about import AboutThing
+from mindrun.kinds.things.thing import AboutThing
 from mindrun.numbers.quantity import TICKS, Ratio, Reference, ThingName
 
 

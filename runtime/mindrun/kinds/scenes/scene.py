@@ -16,16 +16,8 @@ class SceneKind:
     """A world without borders; a kind says what is different about it."""
 
     __slots__ = ()
-
-    @property
-    def environment(self) -> str:
-        """The environment that is this world; empty where the lanes simulate it."""
-        return ""
-
-    @property
-    def sides(self) -> tuple[float, float]:
-        """A scene's lengths along x and y in world units; infinite where it has no walls. The origin is its middle."""
-        return inf, inf
+    environment = ""  # that is this world; empty where the lanes simulate it
+    sides = inf, inf  # its lengths along x and y in world units, infinite without walls; the origin is its middle
 
     @property
     def is_bounded(self) -> bool:
@@ -65,7 +57,7 @@ class Arena(SceneKind):
     size: Annotated[Extent, SIDE] = 100.0
 
     @property
-    def sides(self) -> tuple[float, float]:
+    def sides(self) -> tuple[float, float]:  # type: ignore[override]
         return self.size if isinstance(self.size, tuple) else (self.size, self.size)
 
 
@@ -76,5 +68,5 @@ class Gymnasium(SceneKind):
     gymnasium: Annotated[str, Reference("environment")]
 
     @property
-    def environment(self) -> str:
+    def environment(self) -> str:  # type: ignore[override]
         return self.gymnasium

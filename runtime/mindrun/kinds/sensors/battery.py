@@ -1,14 +1,14 @@
 """The charge of the battery."""
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import BatteryModel, Begin, Bounds, Physical
+from mindrun.kinds.sensors.sensor import Begin, Bounds, Physical
 from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.quantity import RATE, Ratio
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
-    from mindrun.numbers.arithmetic import F
+    from mindrun.numbers.arithmetic import *
 
 
 @kind("sensor", "battery")
@@ -23,8 +23,8 @@ class Battery(Physical):
     remedy = "Give it a drain above 0"
 
     @property
-    def battery(self) -> BatteryModel:
-        return BatteryModel(self.start, self.drain, self.charge)
+    def battery(self) -> Self:
+        return self
 
     def constant(self, world: WorldFacts) -> float | None:
         is_still = self.drain == 0 and (self.start == 1 or not (self.charge and world.charges))

@@ -18,7 +18,7 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
     from mindrun.kinds.sensors.sensor import Flaw
-    from mindrun.numbers.arithmetic import NAN, ONE, ZERO
+    from mindrun.numbers.arithmetic import *
     from mindrun.numbers.arrays import Reader, Readings
 
 
@@ -37,7 +37,7 @@ class Broken(SensorKind):
         return named(self.maintains)
 
     @property
-    def formula(self) -> Formula:
+    def formula(self) -> Formula:  # type: ignore[override]
         return self.maintains
 
     def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:

@@ -12,22 +12,7 @@ from mindrun.numbers.trigonometry import cosine, sine
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.numbers.arithmetic import (
-        BOX_COLUMNS,
-        COSINE,
-        HALF_X,
-        HALF_Y,
-        LOOSE_ROWS,
-        ONE,
-        SINE,
-        TURN,
-        ZERO,
-        X,
-        Y,
-        place_of,
-        sine_cosine,
-        size_of,
-    )
+    from mindrun.numbers.arithmetic import *
 
 WIDTH = Quantity("an angle", {"deg": pi / 180}, low=pi / 180, high=2 * pi)
 
@@ -47,11 +32,11 @@ class Bumper(Physical):
     remedy = "Let a task contain something solid"
 
     @property
-    def sector(self) -> float:
+    def sector(self) -> float:  # type: ignore[override]
         return self.width_
 
     @property
-    def numbers(self) -> tuple[float, ...]:
+    def numbers(self) -> tuple[float, ...]:  # type: ignore[override]
         """The cosine of half the width, then cosine and sine of each angle."""
         return cosine(self.width_ / 2), *(f(angle) for angle in self.at for f in (cosine, sine))
 

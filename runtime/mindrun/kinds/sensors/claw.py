@@ -8,7 +8,7 @@ from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.quantity import ThingName
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
-    from mindrun.numbers.arithmetic import ONE, ZERO, in_claw
+    from mindrun.numbers.arithmetic import *
 
 
 @kind("sensor", "contact")

@@ -9,7 +9,7 @@ from mindrun.numbers.quantity import Ratio, ServoName
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.numbers.arithmetic import COSINE, HALF, SINE, F, bearing
+    from mindrun.numbers.arithmetic import *
 
 
 @kind("sensor", "compass")

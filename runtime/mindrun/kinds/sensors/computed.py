@@ -16,7 +16,7 @@ from mindrun.numbers.stack_machine import evaluate as run_program
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.numbers.arithmetic import NAN, ONE, ZERO, F, clamp, finite
+    from mindrun.numbers.arithmetic import *
     from mindrun.numbers.arrays import Reader, Readings
 
 
@@ -37,7 +37,7 @@ class Computed(SensorKind):
         return named(self.at)
 
     @property
-    def formula(self) -> Formula:
+    def formula(self) -> Formula:  # type: ignore[override]
         return self.at
 
     def goes_round(self, directions: Collection[str]) -> bool:

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Begin, Bounds, Flaw, Row, Scene, SensorKind
 from mindrun.kinds.things.thing import WorldFacts
-from mindrun.numbers.quantity import ANGLE, WINDOW, Count, Positive, Ratio, SensorName
+from mindrun.numbers.quantity import WINDOW, Angle, Count, Positive, Ratio, SensorName
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
     from numpy.typing import NDArray
 
-    from mindrun.numbers.arithmetic import HALF, NAN, ONE, ZERO, F, clamp, finite, short_way, wrapped
+    from mindrun.numbers.arithmetic import *
     from mindrun.numbers.arrays import Reader, Readings
 
 
@@ -62,8 +62,8 @@ class Derivative(SensorKind):
 
         return read
 
-    def row(self, scene: Scene) -> Row:
-        return {**SensorKind.row(self, scene), "gain": 0.5 / (scene.tick * self.range)}
+    def gain(self, scene: Scene) -> float:
+        return 0.5 / (scene.tick * self.range)
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
@@ -148,12 +148,11 @@ class Turned(SensorKind):
     """
 
     of: SensorName
-    by: Annotated[float, ANGLE]
+    by: Angle
 
     circular = shape = None
 
-    @property
-    def share(self) -> float:
+    def gain(self, scene: Scene) -> float:
         """The angle as a share of a whole turn."""
         return self.by / (2 * pi)
 
@@ -170,16 +169,13 @@ class Turned(SensorKind):
     def reader(self, scene: Scene) -> Reader:
         import numpy as np
 
-        source, share = scene.places[self.of], np.float64(np.float32(self.share))
+        source, share = scene.places[self.of], np.float64(np.float32(self.gain(scene)))
 
         def read(number: int, now: Readings, before: Readings | None) -> Readings:
             value = now[source].astype(np.float64) - share
             return np.where((value < 0) | (value > 1), value - np.floor(value), value).astype(np.float32)
 
         return read
-
-    def row(self, scene: Scene) -> Row:
-        return {**SensorKind.row(self, scene), "gain": self.share}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

@@ -7,7 +7,7 @@ from mindrun.kinds.sensors.sensor import Begin, Bounds, Physical
 from mindrun.numbers.quantity import Quantity, ThingName
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
-    from mindrun.numbers.arithmetic import COSINE, ONE, SINE, ZERO, X, Y, inside, place_of, size_of
+    from mindrun.numbers.arithmetic import *
 
 
 @kind("sensor", "inside")
@@ -52,11 +52,11 @@ class Floor(Physical):
     is_about = staticmethod(lambda kind: not kind.is_solid)  # what can lie on the floor
 
     @property
-    def spots(self) -> tuple[tuple[float, float], ...]:
+    def spots(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
         return tuple((self.ahead, left) for left in self.at)
 
     @property
-    def numbers(self) -> tuple[float, ...]:
+    def numbers(self) -> tuple[float, ...]:  # type: ignore[override]
         """The distance of the bar ahead of the middle, then the distance of each point to the left."""
         return self.ahead, *self.at
 

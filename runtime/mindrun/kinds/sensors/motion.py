@@ -11,11 +11,26 @@ from mindrun.numbers.quantity import Positive, Quantity, Ratio, Reference
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.numbers.arithmetic import COSINE, HALF, SINE, SPEED_X, SPEED_Y, SPIN, ZERO, F, X, Y, clamp
+    from mindrun.numbers.arithmetic import *
+
+
+class Signed(Physical):
+    """A measure of two directions: 0.5 is nothing, 1 is `range` or more in one, 0 in the other."""
+
+    __slots__ = ()
+
+    range: float
+
+    scaled = True
+    blank = 0.5
+
+    def gain(self, scene: Scene) -> float:
+        """0.5 / range."""
+        return 0.5 / self.range
 
 
 @kind("sensor", "speed")
-class Speed(Physical):
+class Speed(Signed):
     """Speed along the heading: 0.5 standing, 1 forward with `range` units a second or more, 0 backward.
 
     0.5 + 0.5 · speed / range; what the body slides aside does not count. Within `dead_zone` of 0.5 it reads 0.5.
@@ -24,15 +39,11 @@ class Speed(Physical):
     range: Positive = 10.0
     dead_zone: Ratio = 0.0
 
-    scaled = True
     unit = "m/s"
-    blank = rest = still = 0.5
+    rest = still = 0.5
 
     def sees(self, actuator: ActuatorKind) -> bool:
         return actuator.drive == "motor"
-
-    def row(self, scene: Scene) -> Row:
-        return {**Physical.row(self, scene), "gain": 0.5 / self.range}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
@@ -44,7 +55,7 @@ class Speed(Physical):
 
 
 @kind("sensor", "odometer")
-class Odometer(Physical):
+class Odometer(Signed):
     """Speed of a wheel on the body's rim, as its encoder counts it: 0.5 standing, 1 forward with `range` units/s.
 
     0.5 + 0.5 · (distance a second) / range, 0 backward; the wheel rolls as its side of the body moves along the heading
@@ -54,15 +65,14 @@ class Odometer(Physical):
     side: Annotated[Side, SIDE]
     range: Positive = 10.0
 
-    scaled = True
     unit = "m/s"
-    blank = rest = still = 0.5
+    rest = still = 0.5
 
     def sees(self, actuator: ActuatorKind) -> bool:
         return actuator.is_motor and actuator.mounted == self.side
 
     def row(self, scene: Scene) -> Row:
-        return {"gain": 0.5 / self.range, "part": 1 if self.side == "right" else -1}
+        return {**Signed.row(self, scene), "part": 1 if self.side == "right" else -1}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
@@ -77,7 +87,7 @@ TURNING = Quantity("an angle a second", {"deg": pi / 180}, low=pi / 1800, high=2
 
 
 @kind("sensor", "turn_rate")
-class TurnRate(Physical):
+class TurnRate(Signed):
     """How fast the robot turns, as a gyroscope says it: 0.5 not at all, 1 to the right with `range` deg/s, 0 left.
 
     0.5 − 0.5 · turning / range, counterclockwise positive. Within `dead_zone` of 0.5 it reads 0.5.
@@ -86,11 +96,7 @@ class TurnRate(Physical):
     range: Annotated[float, TURNING] = pi
     dead_zone: Ratio = 0.0
 
-    scaled = True
-    blank = rest = still = 0.5
-
-    def row(self, scene: Scene) -> Row:
-        return {**Physical.row(self, scene), "gain": 0.5 / self.range}
+    rest = still = 0.5
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
@@ -112,8 +118,8 @@ class Inertial(Physical):
 
     still = 0.0
 
-    def row(self, scene: Scene) -> Row:
-        return {**Physical.row(self, scene), "gain": 1.0 / (TRAIL_TICKS * scene.tick * self.range)}
+    def gain(self, scene: Scene) -> float:
+        return 1.0 / (TRAIL_TICKS * scene.tick * self.range)
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
@@ -129,7 +135,7 @@ Axis = Literal["x", "y"]
 
 
 @kind("sensor", "position")
-class Position(Physical):
+class Position(Signed):
     """Place of the robot's middle along an axis, as beacons tell it: 0.5 the origin, 1 from `range` units on.
 
     0.5 + 0.5 · x / range, or y, and 0 from −range on; the origin is the middle of an arena, y points north.
@@ -138,12 +144,10 @@ class Position(Physical):
     along: Annotated[Axis, Reference("axis", get_args(Axis))]
     range: Positive = 50.0
 
-    scaled = True
     unit = "m"
-    blank = 0.5
 
     def row(self, scene: Scene) -> Row:
-        return {"gain": 0.5 / self.range, "part": get_args(Axis).index(self.along)}
+        return {**Signed.row(self, scene), "part": get_args(Axis).index(self.along)}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

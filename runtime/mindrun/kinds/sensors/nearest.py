@@ -16,28 +16,7 @@ from mindrun.numbers.quantity import (
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.numbers.arithmetic import (
-        BOX_COLUMNS,
-        COSINE,
-        DISTANCE,
-        HALF,
-        LOOSE_ROWS,
-        ONE,
-        SINE,
-        SIZE,
-        TURN,
-        ZERO,
-        F,
-        X,
-        Y,
-        bearing,
-        box_of,
-        clamp,
-        nearest,
-        place_of,
-        sine_cosine,
-        size_of,
-    )
+    from mindrun.numbers.arithmetic import *
 
 
 @kind("sensor", "bearing")

@@ -24,7 +24,7 @@ class Observation(Physical):
     scaled = True
 
     @property
-    def slot(self) -> Slot:
+    def slot(self) -> Slot:  # type: ignore[override]
         return Slot(self.part, self.observation, self.range)
 
     def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
@@ -54,7 +54,7 @@ class Observations(Physical):
     scaled = True
 
     @property
-    def slot(self) -> Slot:
+    def slot(self) -> Slot:  # type: ignore[override]
         return Slot(self.part, self.observations, self.range, last=self.to)
 
     @property

@@ -11,7 +11,7 @@ from mindrun.numbers.quantity import Number, Quantity, Range, Ratio
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.numbers.arithmetic import ONE, ZERO, F, seek, uniform
+    from mindrun.numbers.arithmetic import *
 
 MAX_CHOICES = 1000
 ONCE_TICKS = 1 << 62  # an order that is drawn anew after so many ticks is drawn once
@@ -77,7 +77,7 @@ class Order(SensorKind):
         return replace(self, timeout=0.0)
 
     @property
-    def numbers(self) -> tuple[float, ...]:
+    def numbers(self) -> tuple[float, ...]:  # type: ignore[override]
         """The share that is lost, then what is read of those."""
         return (self.lost, *self.readings(self.neutral))
 

@@ -10,23 +10,7 @@ from mindrun.numbers.quantity import Angles, Positive, Ratio, ServoName, ThingNa
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.numbers.arithmetic import (
-        COSINE,
-        HALF_X,
-        HALF_Y,
-        MAX_FLOAT32,
-        ONE,
-        SINE,
-        ZERO,
-        F,
-        X,
-        Y,
-        box_of,
-        clamp,
-        place_of,
-        sine_cosine,
-        size_of,
-    )
+    from mindrun.numbers.arithmetic import *
 
 
 @kind("sensor", "range_finder")

@@ -3,23 +3,22 @@
 from dataclasses import dataclass, replace
 from typing import Annotated
 
-from mindrun.kinds.bodies.body import DAMPING, DENSITY
+from mindrun.kinds.bodies.body import Damping, Density
 from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.aim import SPEED, Aiming
 from mindrun.kinds.things.thing import (
     DEFAULT_DISTANCE,
     DEFAULT_SIZE,
     MOVES,
-    OUTCOME,
+    SPEED,
     STAYS,
+    Aiming,
     Alternatives,
-    Outcome,
+    Becomes,
     ThingKind,
     ThingMistake,
 )
 from mindrun.numbers.quantity import (
-    COORDINATE,
     DISTANCE,
     FARTHEST_UNITS,
     POSITIVE,
@@ -56,16 +55,16 @@ class Loose(ThingKind, Aiming):
     """
 
     size: Annotated[Span, LOOSE_SIZE] = DEFAULT_SIZE
-    density: Annotated[float, DENSITY] = 0.5
+    density: Density = 0.5
     friction: Ratio = DEFAULT_FRICTION
-    damping: Annotated[float, DAMPING] = 5.0
+    damping: Damping = 5.0
     away: Lengths = DEFAULT_DISTANCE
     at: Places = ()
-    or_: Annotated[Alternatives, COORDINATE] = left_out(())
+    or_: Alternatives = left_out(())
     within: Annotated[Region, THING] = left_out("")
     count: Count = 1
-    reached: Annotated[Outcome, OUTCOME] = STAYS
-    delivered: Annotated[Outcome, OUTCOME] = MOVES
+    reached: Becomes = STAYS
+    delivered: Becomes = MOVES
     seeks: ThingName = left_out("")
     flees: ThingName = left_out("")
     speed: Annotated[float, SPEED] = left_out(DEFAULT_SPEED)
@@ -110,7 +109,7 @@ class LooseBox(Loose):
 class Ball(Loose):
     """A solid disc of diameter `size` that can be pushed, and rolls on for a while; all else is as of a box."""
 
-    density: Annotated[float, DENSITY] = 0.2
-    damping: Annotated[float, DAMPING] = 1.0
+    density: Density = 0.2
+    damping: Damping = 1.0
 
     is_round = True

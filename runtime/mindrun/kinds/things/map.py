@@ -36,7 +36,7 @@ class Map(ThingKind):
         return len(_rectangles(self.from_))
 
     @property
-    def walls(self) -> tuple[Rectangle, ...]:
+    def walls(self) -> tuple[Rectangle, ...]:  # type: ignore[override]
         found = []
         for column, row, wide, high in _rectangles(self.from_):
             (x, y), (to_x, to_y) = self._place(column, row), self._place(column + wide - 1, row + high - 1)
@@ -45,11 +45,11 @@ class Map(ThingKind):
         return tuple(found)
 
     @property
-    def drawing(self) -> Lines:
+    def drawing(self) -> Lines:  # type: ignore[override]
         return self.from_
 
     @property
-    def letters(self) -> Mapping[str, tuple[Place, ...]]:
+    def letters(self) -> Mapping[str, tuple[Place, ...]]:  # type: ignore[override]
         found: dict[str, list[Place]] = {}
         for row, line in enumerate(self.from_):
             for column, letter in enumerate(line):

@@ -17,7 +17,7 @@ from mindrun.kinds.things.thing import (
     ThingKind,
     ThingMistake,
 )
-from mindrun.numbers.quantity import COORDINATE, Length, Lengths, Place, Places, Quantity
+from mindrun.numbers.quantity import Length, Lengths, Place, Places, Quantity
 
 COUNT = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
 MIDDLE_UNITS: tuple[Place, ...] = ((0.0, 0.0),)  # of a grid
@@ -37,7 +37,7 @@ class Obstacle(ThingKind):
     count: Annotated[int, COUNT] = 0
     away: Lengths = DEFAULT_DISTANCE
     at: Places = ()
-    or_: Annotated[Alternatives, COORDINATE] = left_out(())
+    or_: Alternatives = left_out(())
 
     unplaceable = "Write a count of as many as the map draws, and neither a place nor a grid."
     is_obstacle = True

@@ -7,20 +7,20 @@ from typing import Annotated, Literal, get_args
 
 from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.aim import SPEED, Aiming
 from mindrun.kinds.things.thing import (
     DEFAULT_DISTANCE,
     DEFAULT_SIZE,
-    OUTCOME,
+    SPEED,
     STAYS,
+    Aiming,
     Alternatives,
-    Outcome,
+    Becomes,
     ThingKind,
     ThingMistake,
+    outside,
 )  # fmt: skip
 from mindrun.numbers.quantity import (
     ANGLE,
-    COORDINATE,
     DISTANCE,
     FARTHEST_UNITS,
     THING,
@@ -60,11 +60,11 @@ class Walker(ThingKind, Aiming):
     along: Places = ()
     away: Lengths = DEFAULT_DISTANCE
     at: Places = ()
-    or_: Annotated[Alternatives, COORDINATE] = left_out(())
+    or_: Alternatives = left_out(())
     from_: Annotated[Begin, BEGIN] = left_out(START)
     within: Annotated[Region, THING] = left_out("")
     count: Count = 1
-    reached: Annotated[Outcome, OUTCOME] = STAYS
+    reached: Becomes = STAYS
     seeks: ThingName = left_out("")
     flees: ThingName = left_out("")
     range: Annotated[float, DISTANCE] = left_out(FARTHEST_UNITS)
@@ -110,7 +110,5 @@ class Walker(ThingKind, Aiming):
         if self.from_ == START and self.count > min(map(len, self.ways)):
             hint = f"Each begins at another place of the way: name {self.count} places, or write a smaller count."
             return ThingMistake("place-for-many", "Several things cannot stand at one place.", hint)
-        if scene is None or all(scene.has_room(place, self.largest / 2) for place in self.spots):
-            return None
         hint = "Write places that are in it with all of the thing; 0 0 is the middle."
-        return ThingMistake("outside-arena", "That is not inside the arena.", hint)
+        return outside(scene, self.spots, self.largest / 2, hint)

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import Rectangle, ThingKind, ThingMistake
+from mindrun.kinds.things.thing import Rectangle, ThingKind, ThingMistake, outside
 from mindrun.numbers.quantity import LENGTH, Places
 
 THICKNESS = replace(LENGTH, low=0.01, high=1000.0)
@@ -28,7 +28,7 @@ class Wall(ThingKind):
         return len(self.from_) - 1
 
     @property
-    def walls(self) -> tuple[Rectangle, ...]:
+    def walls(self) -> tuple[Rectangle, ...]:  # type: ignore[override]
         return tuple(self._stretches())
 
     def _stretches(self) -> Iterator[Rectangle]:
@@ -50,7 +50,4 @@ class Wall(ThingKind):
             if x != to_x and y != to_y:
                 hint = f"Make it of walls along the axes: wall from {x:g} {y:g} to {to_x:g} {y:g} to {to_x:g} {to_y:g}."
                 return ThingMistake("slanting-wall", "This wall does not lie along an axis.", hint)
-        if scene is None or all(scene.has_room(place, 0.0) for place in self.from_):
-            return None
-        hint = "Write places that are in it, or on its border; 0 0 is the middle."
-        return ThingMistake("outside-arena", "That is not inside the arena.", hint)
+        return outside(scene, self.from_, 0.0, "Write places that are in it, or on its border; 0 0 is the middle.")
