@@ -10,7 +10,7 @@ from mindrun.graph.policy import Policy
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
 
-from mindlang.proofs import branch_and_bound
+from mindlang.proofs import branch_and_bound, reach
 from mindlang.proofs.proof import ActuatorClaims, prove
 from mindlang.proofs.reach import ROUNDING_MARGIN, Bound, Driven
 from mindlang.proofs.trying import think_rows

@@ -362,4 +362,5 @@ class Graph(ShortRepr):
 
     def named(self, noun: Receiver, index: int) -> str:
         """The name of the "skill", "actuator" or "memory" that an edge goes to by its index."""
-        return {"skill": self.skills, "actuator": self.actuators, "memory": self.memories}[noun][index].name
+        parts: tuple[Skill | Actuator | Memory, ...] = self.skills if noun == "skill" else self.memories
+        return (self.actuators if noun == "actuator" else parts)[index].name

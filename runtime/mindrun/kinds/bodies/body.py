@@ -96,12 +96,11 @@ class Round(BodyKind):
         return self.radius**2, 2.0
 
 
+@dataclass(frozen=True, slots=True)
 class Rectangular(BodyKind):
     """A rectangle as long and as wide as its two sizes say."""
 
-    __slots__ = ()
-
-    size: Extent
+    size: Annotated[Extent, DIAMETER] = (3.0, 2.0)
 
     @property
     def sides(self) -> Point:
@@ -166,8 +165,6 @@ class Box(Rectangular):
     Every tick of length dt its velocity is divided by 1 + dt·damping.
     """
 
-    size: Annotated[Extent, DIAMETER] = (3.0, 2.0)
-
     drives = ("wheel", "thruster")
 
 
@@ -183,7 +180,6 @@ class Car(Rectangular):
     the steering has left of other motion is lost, as to forces that act on the axles and do no work.
     """
 
-    size: Annotated[Extent, DIAMETER] = (3.0, 2.0)
     wheelbase: Annotated[float, WHEELBASE] = 0.6
 
     drives = ("motor", "steering")

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 from mindrun.kinds.environment import OfEnvironment
 from mindrun.kinds.registry import arguments, base, named_arguments
 from mindrun.kinds.things.thing import AboutThing, WorldFacts
-from mindrun.numbers.expression import Formula
-from mindrun.numbers.quantity import ANGLE, SENSOR, SERVO, Ratio, Ticks
+from mindrun.numbers.expression import Formula, named
+from mindrun.numbers.quantity import ANGLE, EXPRESSION, SENSOR, SERVO, Ratio, Ticks
 
 if TYPE_CHECKING:
     from mindrun.kinds.actuators.actuator import ActuatorKind
@@ -80,7 +80,6 @@ class SensorKind(AboutThing, OfEnvironment):
     dead_zone = 0.0
     battery: Any = None  # the kind of sensor that says how the battery is that it reads
     still: float | None = None  # what it reads of a robot that stands, as it does when a run begins
-    formula: Formula = ()  # the expression that it computes
     spots: tuple[tuple[float, float], ...] = ()  # of the floor that its readings look at, x ahead and y to the left
     sector = 0.0  # the angle, around each of its directions, in which it feels a touch; 0 where it feels none
     numbers: tuple[float, ...] = ()  # that its lane reads beside its row: `t.numbers`, from `sensor.number` on
@@ -99,8 +98,14 @@ class SensorKind(AboutThing, OfEnvironment):
 
     @property
     def sources(self) -> tuple[str, ...]:
-        """All sensors and memories from which it is computed."""
-        return (self.source,) if self.source else ()
+        """All sensors and memories from which it is computed, each once."""
+        return named(self.formula) or ((self.source,) if self.source else ())
+
+    @property
+    def formula(self) -> Formula:
+        """The expression that it computes, in postfix order, with readings by their names; empty for none."""
+        found: Any = self.named(EXPRESSION)
+        return found or ()
 
     @property
     def servo(self) -> str:
