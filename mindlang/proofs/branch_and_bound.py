@@ -12,11 +12,10 @@ import numpy as np
 from mindrun.graph.graph import Edge, Gate, Program, Skill
 from mindrun.graph.weights import Weights
 from mindrun.kinds.functions.mlp import Mlp
-from numpy.typing import NDArray
+from mindrun.numbers.arrays import Bools, Singles
 
 from mindlang.proofs.interval import (
     Boxes,
-    Singles,
     is_known,
     join_boxes,
     perceptron_matrices,
@@ -53,7 +52,7 @@ class Pool(NamedTuple):
     most: Singles
     low: Singles
     high: Singles
-    sure: NDArray[np.bool_]
+    sure: Bools
 
 
 def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[EdgeRange, ...]:
@@ -147,7 +146,7 @@ def sway_of(skill: Skill, weights: Weights | None) -> Singles:
     return sway
 
 
-def can_close(boxes: Boxes, sway: Singles, most: int, is_open: Callable[[Boxes], NDArray[np.bool_]]) -> bool:
+def can_close(boxes: Boxes, sway: Singles, most: int, is_open: Callable[[Boxes], Bools]) -> bool:
     """True if no box `is_open` any more after each that is was cut, and so on; False where that makes too many."""
     made = len(boxes.low)
     while len(boxes.low):

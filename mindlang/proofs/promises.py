@@ -5,7 +5,7 @@ the number itself, which is a cell of no width. In a cell such a condition holds
 sent is learnt, branch and bound goes on from there. What a skill maintains and achieves depends on its world.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
 from math import prod
@@ -14,14 +14,13 @@ from typing import Literal
 import numpy as np
 from mindrun.graph.graph import Graph, Program, Promise, Skill
 from mindrun.graph.skill_sets import reachable
-from mindrun.graph.weights import Weights
+from mindrun.numbers.arrays import Bools, Singles, WeightsBySkill
 from mindrun.numbers.expression import leaves
 from networkx import DiGraph
-from numpy.typing import NDArray
 
 from mindlang.compiler.hierarchy import with_ancestors
 from mindlang.proofs.branch_and_bound import can_close
-from mindlang.proofs.interval import Boxes, Singles, expression_bounds, is_known, whole_box
+from mindlang.proofs.interval import Boxes, expression_bounds, is_known, whole_box
 from mindlang.proofs.reach import MAX_BOX_SKILLS, MAX_BOXES, ProvedReach, flow, sway_of_all
 from mindlang.proofs.trying import TRIED_READINGS, readings_to_try, think_rows
 
@@ -43,7 +42,7 @@ class Requirement:
     weights: tuple[str, ...]
 
 
-def prove_requirements(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach) -> Iterator[Requirement]:
+def prove_requirements(graph: Graph, weights: WeightsBySkill, found: ProvedReach) -> Iterator[Requirement]:
     """A claim for each line, of the skills below the master; `found` are the bounds of the hierarchy."""
     skills = reachable(graph, graph.master)
     known = all(is_known(skill, weights.get(skill.owner)) for skill in skills)
@@ -88,7 +87,7 @@ def _bounds(program: Program, boxes: Boxes) -> tuple[Singles, Singles]:
         return expression_bounds(program, boxes)
 
 
-def _broken(graph: Graph, weights: Mapping[str, Weights], cells: Boxes, program: Program, skill: int) -> Singles | None:
+def _broken(graph: Graph, weights: WeightsBySkill, cells: Boxes, program: Program, skill: int) -> Singles | None:
     """Readings for which a skill acts where the program does not hold; None where none of those tried are such."""
     tried = np.concatenate([cells.low, cells.high, readings_to_try(graph.width, TRIED_READINGS)])
     acts = think_rows(graph, weights, tried).influence[:, skill] > 0
@@ -99,7 +98,7 @@ def _broken(graph: Graph, weights: Mapping[str, Weights], cells: Boxes, program:
 
 def _may_break(
     graph: Graph,
-    weights: Mapping[str, Weights],
+    weights: WeightsBySkill,
     found: ProvedReach,
     cells: Boxes,
     program: Program,
@@ -110,7 +109,7 @@ def _may_break(
     sway = sway_of_all(graph, above, weights, program)
     most = min(MAX_BOXES, MAX_BOX_SKILLS // len(found.edges)) + len(cells.low)
 
-    def is_open(boxes: Boxes) -> NDArray[np.bool_]:
+    def is_open(boxes: Boxes) -> Bools:
         acts = flow(graph, weights, found, boxes).high[:, skill] > 0
         return acts & ~(_bounds(program, boxes)[0] > 0)
 

@@ -17,14 +17,13 @@ from typing import NamedTuple
 
 import numpy as np
 from mindrun.graph.graph import Graph, Program, Skill
-from mindrun.graph.weights import Weights, reachable
+from mindrun.graph.weights import reachable
+from mindrun.numbers.arrays import Bools, Singles, WeightsBySkill
 from mindrun.numbers.expression import leaves
-from numpy.typing import NDArray
 
 from mindlang.proofs.branch_and_bound import EdgeRange, by_itself, can_close, ranges, sway_of
-from mindlang.proofs.interval import Boxes, SentBounds, Singles, sent_bounds, whole_box
+from mindlang.proofs.interval import Boxes, SentBounds, sent_bounds, whole_box
 
-Bools = NDArray[np.bool_]
 MAX_SKILL_BOXES, MAX_TOTAL_BOXES = 20_000, 500_000  # for one skill, for all of them
 ROUNDING_MARGIN = 2.0**-22
 MAX_BOXES, MIN_BOXES, MAX_BOX_SKILLS = 8192, 16, 100_000  # of all readings: boxes, and boxes times skills
@@ -71,7 +70,7 @@ class InfluenceBounds(NamedTuple):
     total_high: Singles
 
 
-def prove_reach(graph: Graph, weights: Mapping[str, Weights]) -> ProvedReach:
+def prove_reach(graph: Graph, weights: WeightsBySkill) -> ProvedReach:
     """Bounds for any readings in 0..1; of skills without weights, and of procedures, only that they send 0..1."""
     skills = reachable(graph, graph.master)
     boxes = max(1, min(MAX_SKILL_BOXES, MAX_TOTAL_BOXES // len(skills)))
@@ -167,9 +166,7 @@ def _mean(drivers: Sequence[EdgeRange]) -> Bound | None:
     return Bound(low if low == 1 else low * (1 - margin), min(1.0, high * (1 + margin)))
 
 
-def tighten(
-    graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, can_be_zero: Sequence[bool]
-) -> ProvedReach:
+def tighten(graph: Graph, weights: WeightsBySkill, found: ProvedReach, can_be_zero: Sequence[bool]) -> ProvedReach:
     """The bounds with a better least Σ influence, for those actuators whose Σ is neither above 0 nor was seen at 0."""
     most = min(MAX_BOXES, MAX_BOX_SKILLS // len(found.edges))
     actuators = list(found.actuators)
@@ -180,7 +177,7 @@ def tighten(
     return replace(found, actuators=tuple(actuators))
 
 
-def _least(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, actuator: int, most: int) -> float:
+def _least(graph: Graph, weights: WeightsBySkill, found: ProvedReach, actuator: int, most: int) -> float:
     """The least Σ influence of an actuator over boxes that cover all readings; 0 where that would take too many."""
     least = np.inf
 
@@ -194,9 +191,7 @@ def _least(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, act
     return least if can_close(whole_box(graph.width), sway, most, is_open) else 0.0
 
 
-def sway_of_all(
-    graph: Graph, skills: Iterable[Skill], weights: Mapping[str, Weights], program: Program = ()
-) -> Singles:
+def sway_of_all(graph: Graph, skills: Iterable[Skill], weights: WeightsBySkill, program: Program = ()) -> Singles:
     """How much each of all readings moves what some skills send, and the program, roughly."""
     sway = np.zeros(graph.width, np.float32)
     sway[[*leaves(program, "reading")]] = 1
@@ -205,7 +200,7 @@ def sway_of_all(
     return sway
 
 
-def flow(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, boxes: Boxes) -> InfluenceBounds:
+def flow(graph: Graph, weights: WeightsBySkill, found: ProvedReach, boxes: Boxes) -> InfluenceBounds:
     """Influence in each box, from what every skill sends there, or what it sends anywhere, whichever says more."""
 
     def sends(skill: Skill) -> SentBounds:

@@ -3,18 +3,17 @@
 Readings for which nothing influences an actuator are looked for by trying, so that one that is found is a proof.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from mindrun.graph.graph import Graph, Program, Skill
 from mindrun.graph.weights import Weights, genes, reachable
-from mindrun.numbers.arrays import columns, evaluate_rows
+from mindrun.numbers.arrays import Singles, WeightsBySkill, columns, evaluate_rows
 from mindrun.numbers.network import FLOAT32, NOTHING
 from networkx import DiGraph
 
 from mindlang.compiler.hierarchy import with_ancestors
-from mindlang.proofs.interval import Singles, is_known, perceptron_matrices
+from mindlang.proofs.interval import is_known, perceptron_matrices
 
 TRIED_READINGS, MAX_WEIGHT_READINGS = 4096, 20_000_000  # readings, and weights times readings
 
@@ -28,7 +27,7 @@ class ThoughtRows:
     command: Singles
 
 
-def think_rows(graph: Graph, weights: Mapping[str, Weights], readings: Singles) -> ThoughtRows:
+def think_rows(graph: Graph, weights: WeightsBySkill, readings: Singles) -> ThoughtRows:
     """Equations 2 and 3 for readings [rows, graph.width], as `mindrun.engine.think` has them; no procedures."""
     places = graph.skill_numbers
     influence = np.zeros((len(readings), len(graph.skills)), np.float32)
@@ -87,7 +86,7 @@ class Tried:
     still: tuple[str, ...] = ()
 
 
-def try_readings(graph: Graph, weights: Mapping[str, Weights]) -> list[Tried]:
+def try_readings(graph: Graph, weights: WeightsBySkill) -> list[Tried]:
     """The trial of each actuator, empty where the function of a skill below the master is not known."""
     skills = reachable(graph, graph.master)
     if not all(is_known(skill, weights.get(skill.owner)) for skill in skills):

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from mindrun.engine.think import Thought, hierarchy, think
 from mindrun.errors import MindError, ReadingsError
@@ -16,7 +16,7 @@ from mindrun.kinds.functions.function import Stateful
 from mindrun.kinds.functions.procedure import used_file
 from mindrun.kinds.procedure_text import FILES, Sources, module_of
 from mindrun.kinds.sensors.sensor import Scene, directions
-from mindrun.numbers.arrays import Reader
+from mindrun.numbers.arrays import Reader, Singles
 
 
 def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> dict[str, str | bytes]:
@@ -76,13 +76,13 @@ class Engine:
                 skill.compute.reset()
         self._virtual = virtual_sensors(self.graph)
         self._tick = 0
-        self._before: NDArray[np.float32] | None = None
+        self._before: Singles | None = None
         self._cells = np.array([memory.kind.start for memory in self.graph.memories], np.float32)
         self.readings = np.zeros(self.graph.width, np.float32)
         self.influence = self._hierarchy.calm[0].copy()
         self.faults = 0
 
-    def tick(self, readings: ArrayLike) -> NDArray[np.float32]:
+    def tick(self, readings: ArrayLike) -> Singles:
         """Commands [actuators] for readings [graph.width]; those of virtual sensors and memories are filled in here."""
         with np.errstate(all="ignore"):
             self.readings = self._filled(np.array(readings, np.float32))
@@ -95,7 +95,7 @@ class Engine:
         self.faults += thought.faults
         return np.where(thought.driven[:actuators], thought.command[:actuators], self._neutral)
 
-    def _filled(self, now: NDArray[np.float32]) -> NDArray[np.float32]:
+    def _filled(self, now: Singles) -> Singles:
         if now.shape != (self.graph.width,):
             raise ReadingsError(f"this mind has {self.graph.width} readings, not {now.shape}")
         now[self._places] = self._cells

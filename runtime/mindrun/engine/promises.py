@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 
 from mindrun.graph.graph import Graph, Promise, Skill
 from mindrun.graph.skill_sets import reachable
-from mindrun.numbers.arrays import columns, evaluate_rows
+from mindrun.numbers.arrays import Bools, Singles, columns, evaluate_rows
 
 NOT_JUDGED, HELD, BY_SKILL, BY_INFLUENCE = range(4)  # what became of a promise in a tick: both last are broken
-Singles = NDArray[np.float32]
 
 
 class PromiseWatcher:
@@ -33,7 +32,7 @@ class PromiseWatcher:
         self._before = [(False, False)] * len(self._skills)  # whether each acted, and against what it requires
 
     @property
-    def acting(self) -> NDArray[np.bool_]:
+    def acting(self) -> Bools:
         """True for each promise [promises] whose skill acts in the last tick so far."""
         acted = (acts for skill, (acts, _) in zip(self._skills, self._before, strict=True) for _ in skill.promises)
         return np.fromiter(acted, bool)
@@ -49,7 +48,7 @@ class PromiseWatcher:
             columns.append(self._judged(place, skill, readings, influence[:, self._numbers[skill.name]] > 0))
         return np.concatenate(columns, axis=1)
 
-    def _judged(self, place: int, skill: Skill, readings: Singles, acts: NDArray[np.bool_]) -> NDArray[np.int8]:
+    def _judged(self, place: int, skill: Skill, readings: Singles, acts: Bools) -> NDArray[np.int8]:
         found, (acted, was_unmet) = np.zeros((len(acts), len(skill.promises)), np.int8), self._before[place]
         if not len(acts):
             return found

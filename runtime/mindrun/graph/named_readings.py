@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 from mindrun.errors import ReadingsError, nearest
 from mindrun.graph.graph import Graph, Sensor
 from mindrun.kinds.sensors.sensor import SensorKind
+from mindrun.numbers.arrays import Singles
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    pass
 
 
 def physical(graph: Graph) -> dict[str, Sensor]:
@@ -27,7 +27,7 @@ def reading_names(graph: Graph) -> list[str]:
 
 def vector(
     graph: Graph, given: Mapping[str, Any], fill: float | None = None, needed: Container[str] | None = None
-) -> NDArray[np.float32]:
+) -> Singles:
     """Readings [graph.width] from `{"proximity": [1, 0.5], "battery": 0.4}`; a missing sensor reads `fill`.
 
     One that is not `needed`, since nobody reads it, may be missing anyway: it is NaN, as a reading that failed. So may

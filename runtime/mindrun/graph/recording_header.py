@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Annotated, Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.errors import MindError
 from mindrun.files.strict_json import are_names, is_whole, parsed
@@ -17,6 +16,7 @@ from mindrun.graph.codec import decode, encode
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.named_readings import physical
 from mindrun.graph.validate import MAX_TICK_SECONDS, MIN_TICK_SECONDS
+from mindrun.numbers.arrays import Doubles
 from mindrun.numbers.quantity import NUMBER, SECONDS, Quantity
 
 FORMAT = "mind recording 3"
@@ -74,7 +74,7 @@ class RecordedWorld:
     begin: Annotated[tuple[float | None, ...], NUMBER]
 
     @classmethod
-    def of(cls, task: Task, seed: int, boxes: NDArray[np.float64], begin: Sequence[float]) -> Self:
+    def of(cls, task: Task, seed: int, boxes: Doubles, begin: Sequence[float]) -> Self:
         """The world of a run of a task, with its obstacles [boxes, 4] and what `begin` has."""
         things = (len(begin) - POSE_COLUMNS) // THING_COLUMNS
         there = tuple(float(number) if abs(number) < NUMBER.high else None for number in begin)

@@ -31,11 +31,7 @@ def installed_version(package: str) -> str:
 
 
 def default_task(graph: Graph) -> tuple[Task, str]:
-    """The task to run where none is named, and a sentence why it is this one; "" where that goes without saying.
-
-    It is the one on which the master is taught; else, where there are lessons and none is on it, the one of its name;
-    else the one on which a skill below it is taught; else the first. The mind has a task.
-    """
+    """The task to run where none is named, and a sentence why it is this one; "" where that goes without saying."""
     tasks = {task.name: task for task in graph.tasks}
     taught = {lesson.master: lesson.task for lesson in reversed(graph.lessons)}  # the first lesson under each
     if graph.master in taught:
@@ -68,10 +64,7 @@ def goals(graph: Graph, task: Task) -> frozenset[str]:
 
 
 def unfit_thing(things: Sequence[Any], names: Collection[str]) -> Any:
-    """The thing for which a sensor cannot be about all of these names in a world of `things`; None where it can.
-
-    It is an obstacle of one of them, or one that is said between those which have them.
-    """
+    """The thing for which a sensor cannot be about all of these names in a world of `things`; None where it can."""
     if len(names) == 1:
         return None
     loose = [thing for thing in things if not (thing.kind and thing.kind.is_obstacle)]
@@ -90,10 +83,7 @@ def varied_kind(graph: Graph, task: Task, variation: Variation) -> Any:
 
 
 def is_one_world(graph: Graph, task: Task, master: str) -> bool:
-    """True if every run of a task under a master is the same, as far as anybody can know.
-
-    Nobody knows what an environment of somebody else's draws, or a procedure.
-    """
+    """True if every run of a task under a master is the same, as far as anybody can know."""
     if task.scene.environment or task.start.facing is None or any(failure.rate > 0 for failure in task.fails):
         return False
     if task.scene.is_bounded and task.start.at is None:

@@ -88,10 +88,7 @@ class Wiring:
 
 
 def reading(wire: SensorWire, raw: float | None, circular: bool | None = False) -> float:
-    """The reading of a raw value: `blank` for None; NaN, which is a fault, for what is not finite.
-
-    What is beyond `low` and `high` reads as that end, but goes round where it is a direction, which is `circular`.
-    """
+    """The reading of a raw value: `blank` for None; NaN, which is a fault, for what is not finite."""
     if raw is None:
         return wire.blank
     share = (raw - wire.low) / (wire.high - wire.low) if isfinite(raw) else nan

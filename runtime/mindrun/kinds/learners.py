@@ -53,10 +53,7 @@ class Genetic:
     lowest: Share = left_out(1.0)
 
     def standstill(self, weights: int, generations: int) -> str:
-        """A sentence on why so many generations find nothing beyond the first genomes; empty if they may.
-
-        `weights` is how many a genome has.
-        """
+        """A sentence on why so many generations find nothing beyond the first genomes; empty if they may."""
         children = self.population - min(max(1, round(self.elite * self.population)), self.population - 1)
         bred = children * (generations - 1)
         if not bred:

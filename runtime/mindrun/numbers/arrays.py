@@ -1,6 +1,6 @@
 """The types of arrays that kinds, engine and learning exchange; the operators of expressions on arrays."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from operator import add, mul, neg, sub, truediv
 from typing import Any
 
@@ -9,11 +9,15 @@ from numpy.typing import NDArray
 
 from mindrun.numbers.expression import Program, fold
 
-Readings = NDArray[np.float32]
+Singles = NDArray[np.float32]
+Doubles = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+Readings = Singles
 Reader = Callable[[int, Readings, Readings | None], Readings | np.float32]  # the tick's number, readings now and before
 Weights = NDArray[np.float32]  # of one skill: [genes]
+WeightsBySkill = Mapping[str, Weights]
 Layers = tuple[tuple[int, int], ...]  # of a network: (values in, values out) of each
-Compute = Callable[[NDArray[np.float32]], NDArray[np.float32]]  # a skill's inputs to its outputs
+Compute = Callable[[Singles], Singles]  # a skill's inputs to its outputs
 Leaf = Callable[[str, Any], Any]  # the word and the operand of a leaf of an expression to its values [rows], or to one
 Frame = NDArray[np.uint8]  # of a camera: [row, column, blue green red]
 

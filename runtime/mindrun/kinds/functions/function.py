@@ -141,10 +141,7 @@ class NetworkFunction(Function):
         return {"width": self.neurons(inputs, outputs)}
 
     def draw(self, inputs: int, outputs: int, count: int, rng: np.random.Generator) -> Weights:
-        """Random genomes [count, weights] whose outputs are 1/2 where all neurons say 1/2.
-
-        Without biases the outputs would otherwise lie anywhere, most beyond 0..1, where they answer to no input.
-        """
+        """Random genomes [count, weights] whose outputs are 1/2 where all neurons say 1/2."""
         import numpy as np
 
         genomes = INITIAL_SPREAD * rng.standard_normal((count, self.genome_length(inputs, outputs)), np.float32)

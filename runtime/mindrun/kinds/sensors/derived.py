@@ -13,10 +13,9 @@ from mindrun.numbers.quantity import WINDOW, Angle, Count, Positive, Ratio, Sens
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
-    from numpy.typing import NDArray
 
     from mindrun.numbers.arithmetic import *
-    from mindrun.numbers.arrays import Reader, Readings
+    from mindrun.numbers.arrays import Doubles, Reader, Readings
 
 
 @kind("sensor", "derivative")
@@ -104,7 +103,7 @@ class Average(SensorKind):
         from mindrun.numbers.arithmetic import short_way
 
         source, turns = scene.places[self.of], self.of in scene.directions
-        ring: list[NDArray[np.float64]] = []
+        ring: list[Doubles] = []
 
         def read(number: int, now: Readings, before: Readings | None) -> Readings:
             last = now[source].astype(np.float64)

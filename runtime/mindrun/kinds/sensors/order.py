@@ -86,10 +86,7 @@ class Order(SensorKind):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """Draw this turn's order of the run's seed, the number of the sensor among orders and that of the turn alone.
-
-        So nothing else that is drawn depends on it, nor it on what happens.
-        """
+        """Draw this turn's order of the run's seed, the sensor's number among orders and that of the turn alone."""
         lost = t.numbers[sensor.number]
         for p in range(n):
             seek(s.active, p, s.seed[p], sensor.part, 2 * (s.tick[p] // sensor.every))
