@@ -83,7 +83,8 @@ class EventKind(AboutThing):
         """The hindrance where it can never happen although its task lacks nothing, else None."""
         return None
 
-    def remembered(self, things: int, others: int) -> int:
+    @staticmethod
+    def remembered(things: int, others: int) -> int:
         """How many of its things, or of the others, the lanes remember to have been where they are."""
         return 0
 
@@ -122,8 +123,7 @@ class Reach(EventKind):
     def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:
         return cls.is_about(kind) and not (argument == "by" and kind.is_area)
 
-    def remembered(self, things: int, others: int) -> int:
-        return others
+    remembered = staticmethod(lambda things, others: others)
 
 
 @kind("event", "leave")
@@ -137,16 +137,13 @@ class Leave(EventKind):
     of: ThingName
     by: ThingName = ""
 
-    @staticmethod
-    def is_about(kind: type[ThingKind]) -> bool:
-        return kind.is_area
+    is_about = staticmethod(lambda kind: kind.is_area)  # squares on the floor
 
     @classmethod
     def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:
         return not (kind.is_area or kind.is_obstacle) if argument == "by" else cls.is_about(kind)
 
-    def remembered(self, things: int, others: int) -> int:
-        return max(1, others)
+    remembered = staticmethod(lambda things, others: max(1, others))  # the robot alone where there is no other
 
 
 PATCH = Quantity("a length in world units", {"": 1.0}, low=0.1, high=1e5)
@@ -185,12 +182,8 @@ class Delivery(EventKind):
 
     outcome = "delivered"
 
-    @staticmethod
-    def is_about(kind: type[ThingKind]) -> bool:
-        return kind.can_be_delivered
-
-    def remembered(self, things: int, others: int) -> int:
-        return things if others else 0
+    is_about = staticmethod(lambda kind: kind.can_be_delivered)
+    remembered = staticmethod(lambda things, others: things if others else 0)  # where it is about certain zones
 
     @classmethod
     def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:

@@ -5,13 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.sensors.sensor import Physical, Ranging, Row, Scene
-from mindrun.numbers.quantity import (
-    Length,
-    Positive,
-    Ratio,
-    ServoName,
-    ThingName,
-)
+from mindrun.numbers.quantity import Length, Positive, Ratio, ServoName, ThingName
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
