@@ -82,8 +82,8 @@ def prove_reach(graph: Graph, weights: WeightsBySkill) -> ProvedReach:
             for edge, sends in zip(skill.edges, edges[skill.name], strict=True):
                 if edge.to == "actuator":
                     drivers[edge.target].append(sends)
-    influence = [Bound(*bounds) for bounds in zip(found.low[0].tolist(), found.high[0].tolist(), strict=True)]
-    totals = [Bound(*bounds) for bounds in zip(found.total_low[0].tolist(), found.total_high[0].tolist(), strict=True)]
+    influence = map(Bound, found.low[0].tolist(), found.high[0].tolist())
+    totals = map(Bound, found.total_low[0].tolist(), found.total_high[0].tolist())
     return ProvedReach(
         edges,
         {skill.name: bound for skill, bound in zip(graph.skills, influence, strict=True) if skill.name in edges},

@@ -148,14 +148,11 @@ def values(skill: ReadySkill, readings: Singles) -> list[np.float32 | None]:
     if not np.isfinite(inputs).all():
         return [np.float32(np.nan)] * len(skill.edges)
     outputs = skill.compute(inputs)
-    found = [
-        gated(edge, edge.gate, outputs, readings) if edge.gate else value_of(edge, outputs, readings)
-        for edge in skill.edges
-    ]
-    return chosen(skill, found) if skill.chooses else found
+    found = [_value(edge, outputs, readings) for edge in skill.edges]
+    return _chosen(skill, found) if skill.chooses else found
 
 
-def chosen(skill: ReadySkill, found: list[np.float32 | None]) -> list[np.float32 | None]:
+def _chosen(skill: ReadySkill, found: list[np.float32 | None]) -> list[np.float32 | None]:
     """The values with 1 for the influence that is greatest, of equals the first, and 0 for the others that are sent."""
     can_be = {
         place: value
@@ -166,19 +163,15 @@ def chosen(skill: ReadySkill, found: list[np.float32 | None]) -> list[np.float32
     return [(_ONE if place == best else _ZERO) if place in can_be else value for place, value in enumerate(found)]
 
 
-def value_of(edge: ReadyEdge, outputs: Singles, readings: Singles) -> np.float32:
-    """The value of an edge, whatever its gate says."""
+def _value(edge: ReadyEdge, outputs: Singles, readings: Singles) -> np.float32 | None:
+    """The value of an edge, None where its gate is closed and nothing is sent; NaN where the condition is no number."""
+    if gate := edge.gate:
+        holds = evaluate(gate.when, readings)
+        if holds == 0:
+            return None if gate.otherwise is None else np.float32(evaluate(gate.otherwise, readings))
+        if not holds > 0:
+            return np.float32(np.nan)
     return np.float32(evaluate(edge.value, readings)) if edge.output is None else outputs[edge.output]
-
-
-def gated(edge: ReadyEdge, gate: Gate, outputs: Singles, readings: Singles) -> np.float32 | None:
-    """The value of an edge with a gate, None where nothing is sent; NaN where the condition is not a number itself."""
-    holds = evaluate(gate.when, readings)
-    if holds > 0:
-        return value_of(edge, outputs, readings)
-    if holds == 0:
-        return None if gate.otherwise is None else np.float32(evaluate(gate.otherwise, readings))
-    return np.float32(np.nan)
 
 
 def clamped(value: np.float32) -> np.float32:

@@ -62,14 +62,10 @@ class BodyKind:
         raise NotImplementedError
 
     @property
-    def mass(self) -> float:
-        """Density times area."""
-        return self.density * self.area[0] * self.area[1]
-
-    @property
     def moment(self) -> float:
-        """The moment of inertia about its middle."""
-        return self.mass * self.gyration[0] / self.gyration[1]
+        """The moment of inertia about its middle; the mass is density times area."""
+        mass = self.density * self.area[0] * self.area[1]
+        return mass * self.gyration[0] / self.gyration[1]
 
     def rim(self, angle: float) -> float:
         """The distance from its middle to its rim in a direction, counterclockwise from straight ahead."""
