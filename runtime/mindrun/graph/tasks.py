@@ -11,6 +11,7 @@ from mindrun.graph.skill_sets import reachable
 from mindrun.kinds.things.thing import MOVES, STAYS
 from mindrun.numbers.expression import leaves
 
+HALF_DIAGONAL = 0.7072  # of a square with side 1, and a little more
 ROUGH = ("noise", "lost", "slip")  # arguments of sensors and actuators of which something is drawn in every tick
 # One more with each change after which a run of the same seed can be another: how bodies move, what is solid, how a
 # world begins, what sensors measure. Weights that were taught before are then said to be taught elsewhere.
@@ -135,3 +136,19 @@ def _draws_in_ticks(graph: Graph, task: Task, master: str) -> bool:
     kinds: list[object] = [*measured]
     kinds += [actuator.kind for actuator in graph.actuators]
     return any(getattr(kind, argument, 0.0) for kind in kinds for argument in ROUGH)
+
+
+def meets_robot(
+    is_area: bool, is_round: bool, is_goal: bool, size: float, dx: float, dy: float, radius: float, reach: float
+) -> bool:
+    """True if a thing (dx, dy) from the robot's middle overlaps the robot, or is a goal that it has reached already.
+
+    On what lies on the floor, an area, the robot may begin, unless that is a goal. `radius` is that of the circle
+    around the robot, `reach` how far from its middle the claw's place reaches, whichever way it faces.
+    """
+    if is_area:
+        return is_goal and max(abs(dx), abs(dy)) <= size / 2
+    gap = radius + (size / 2 if is_round else size * HALF_DIAGONAL)
+    if is_goal:
+        gap = max(gap, reach + size / 2)
+    return dx * dx + dy * dy < gap * gap
