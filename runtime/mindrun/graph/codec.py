@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
-from functools import cache
 from math import isfinite
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
@@ -15,6 +14,7 @@ PLAIN = (bool, int, float, str)
 MAX_WHOLE_NUMBER = 2**53 - 1  # what any reader of JSON takes
 
 T = TypeVar("T")
+_known_hints: dict[type[Any], dict[str, Any]] = {}  # of each class that was decoded
 
 
 class CodecError(ValueError):
@@ -132,7 +132,8 @@ def _one_of(may_be: bool, value: Any, where: str) -> Any:
     return value
 
 
-@cache
 def _hints(cls: type[Any]) -> dict[str, Any]:
-    hints = get_type_hints(cls, include_extras=True)
-    return {field.name: hints[field.name] for field in fields(cls)}
+    if cls not in _known_hints:
+        hints = get_type_hints(cls, include_extras=True)
+        _known_hints[cls] = {field.name: hints[field.name] for field in fields(cls)}
+    return _known_hints[cls]

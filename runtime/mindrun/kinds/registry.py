@@ -23,6 +23,7 @@ SHARED_NOUNS = {"scene": "task"}  # a scene is one of those that a task can be i
 _kinds: dict[str, dict[str, type[Any]]] = defaultdict(dict)
 _names: dict[type[Any], str] = {}
 _bases: dict[type[Any], str] = {}
+_arguments: dict[Any, tuple["Argument", ...]] = {}  # of each kind that was asked for
 
 Shape = Literal["one", "list", "span", "name", "extent", "place", "places", "alternatives", "region", "lines"]
 """Of an argument: a number, several, a `Span`, a word, an `Extent`, a place, several, lists of places of which one is
@@ -117,15 +118,16 @@ def names() -> Mapping[type[Any], str]:
     return _names
 
 
-@cache
 def arguments(cls: type[Any]) -> tuple[Argument, ...]:
     """The arguments that a kind takes, in the order of its fields, its own before those that others have too."""
-    hints = get_type_hints(cls, include_extras=True)
-    return tuple(
-        Argument(f.name.removesuffix("_"), f.name, *_type(hints[f.name]), default=f.default)
-        for f in sorted(fields(cls), key=lambda field: field.kw_only is True)
-        if f.metadata.get("argument", True)
-    )
+    if cls not in _arguments:
+        hints = get_type_hints(cls, include_extras=True)
+        _arguments[cls] = tuple(
+            Argument(f.name.removesuffix("_"), f.name, *_type(hints[f.name]), default=f.default)
+            for f in sorted(fields(cls), key=lambda field: field.kw_only is True)
+            if f.metadata.get("argument", True)
+        )
+    return _arguments[cls]
 
 
 def later_fields(cls: type[Any]) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from math import cos, hypot, pi, sin
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from mindrun.kinds.registry import base, kind
 from mindrun.numbers.quantity import Extent, Quantity
@@ -30,10 +30,8 @@ class BodyKind:
     angular_damping: Damping = ANGULAR_DAMPING
 
     varying = ("density", "friction", "linear_damping", "angular_damping")  # that can differ from run to run
-    drives: ClassVar[tuple[Drive, ...]] = ()  # what can move it
-    outline: ClassVar[
-        tuple[Point, ...]
-    ] = ()  # the corners in the body's frame, counterclockwise; none where it is round
+    drives = tuple[Drive, ...]()  # what can move it
+    outline = tuple[Point, ...]()  # the corners in the body's frame, counterclockwise; none where it is round
     axle_distance = 0.0  # between two axles that do not slip sideways; 0 where it has none
 
     @property
