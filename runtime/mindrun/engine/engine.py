@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from mindrun.engine.think import Thought, hierarchy, think
 from mindrun.errors import MindError, ReadingsError
@@ -82,7 +82,7 @@ class Engine:
         self.influence = self._hierarchy.calm[0].copy()
         self.faults = 0
 
-    def tick(self, readings: ArrayLike) -> Singles:
+    def tick(self, readings: ArrayLike) -> NDArray[np.float32]:
         """Commands [actuators] for readings [graph.width]; those of virtual sensors and memories are filled in here."""
         with np.errstate(all="ignore"):
             self.readings = self._filled(np.array(readings, np.float32))

@@ -7,7 +7,6 @@ from mindrun.errors import WeightsError
 from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.named_readings import reading_names
 from mindrun.graph.weights import Weights, checked
-from mindrun.numbers.arrays import WeightsBySkill
 from mindrun.numbers.short_repr import ShortRepr
 
 
@@ -22,7 +21,7 @@ class Policy(ShortRepr):
     """
 
     graph: Graph
-    weights: WeightsBySkill
+    weights: Mapping[str, Weights]
 
     def __post_init__(self) -> None:
         skills = {skill.name: skill for skill in self.graph.skills if not skill.like}

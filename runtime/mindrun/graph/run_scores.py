@@ -27,8 +27,8 @@ class Scores(ShortRepr):
     were not sent, and such a flight.
     """
 
-    total: Doubles
-    by_line: Doubles
+    total: NDArray[np.float64]
+    by_line: NDArray[np.float64]
     counts: NDArray[np.int64]
     by_event: NDArray[np.int64]
     ticks: NDArray[np.int64]
