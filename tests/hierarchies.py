@@ -16,13 +16,11 @@ from mindrun.kinds.functions.procedure import Procedure
 from mindrun.kinds.memory import Cell
 from mindrun.kinds.registry import arguments, kinds
 from mindrun.kinds.sensors.battery import Battery
-from mindrun.kinds.sensors.broken import Broken
 from mindrun.kinds.sensors.bumper import Bumper
-from mindrun.kinds.sensors.claw import Contact, Held
 from mindrun.kinds.sensors.compass import Compass, Direction
-from mindrun.kinds.sensors.computed import Computed
+from mindrun.kinds.sensors.computed import Broken, Computed
+from mindrun.kinds.sensors.contact import Contact, Floor, Held, Inside
 from mindrun.kinds.sensors.derived import Average, Derivative, Latch, Mirrored, Reading, Turned
-from mindrun.kinds.sensors.floor import Floor, Inside
 from mindrun.kinds.sensors.motion import Inertial, Odometer, Position, Speed, TurnRate
 from mindrun.kinds.sensors.nearest import Bearing, Distance, Light
 from mindrun.kinds.sensors.order import Order

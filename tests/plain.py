@@ -5,9 +5,8 @@ import operator
 
 import numpy as np
 from mindrun.kinds.functions.procedure import Procedure
-from mindrun.kinds.sensors.broken import Broken
 from mindrun.kinds.sensors.compass import Compass, Direction
-from mindrun.kinds.sensors.computed import Computed
+from mindrun.kinds.sensors.computed import Broken, Computed
 from mindrun.kinds.sensors.derived import Average, Derivative, Mirrored, Reading, Turned
 from mindrun.kinds.sensors.nearest import Bearing
 from mindrun.kinds.sensors.waves import Clock, Sine

@@ -10,10 +10,10 @@ from mindrun.engine.engine import Engine, procedure_sources
 from mindrun.engine.think import hierarchy
 from mindrun.graph.weights import reachable
 from mindrun.kinds.sensors.sensor import directions
+from mindrun.numbers.arrays import Bools, Doubles
 from mindrun.robot.recording import RecordingError, read
 from mindrun.robot.replay import computed_again
 from mindrun.terminal.tick_count import ticks as in_words
-from numpy.typing import NDArray
 
 from mindlang.attribution.shares import NAMED_PATHS, Contribution, shares
 from mindlang.compiler.diagnostic import did_you_mean, listed
@@ -39,7 +39,7 @@ class AttributedRun:
     about: dict[str, Any]
     flows: EdgeFlows
     acted: Singles
-    stopped: NDArray[np.bool_]
+    stopped: Bools
     run: RecordedRun | None = None
 
     @property
@@ -168,7 +168,7 @@ def _reads(attributed: AttributedRun, of: Contribution, rows: range) -> dict[str
     return found
 
 
-def mean_direction(turns: NDArray[np.float64]) -> float:
+def mean_direction(turns: Doubles) -> float:
     """The mean of directions in turns, 0..1: where their unit vectors lead together; NaN where that is nowhere."""
     together = np.exp(2j * np.pi * turns).mean()
     return float(np.angle(together) / (2 * np.pi) % 1.0) if abs(together) > DIRECTION_TOLERANCE else nan

@@ -20,12 +20,12 @@ from operator import attrgetter
 import numpy as np
 from mindrun.engine.think import clamped
 from mindrun.errors import MindError
+from mindrun.numbers.arrays import Bools, Doubles
 from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import NOTHING, EdgeFlow, EdgeFlows, Sink, accumulated
 
 NAMED_PATHS = 10
-Doubles = NDArray[np.float64]
 MAX_COUNTED_PATHS = 10**15
 Linked = tuple[()] | tuple[int, "Linked"]  # edges from an upper one down
 # Of a path that is known: minus the bound of its part, a number, its edges, the upper skill, a part and what of it.
@@ -174,7 +174,7 @@ class _Ends(IncomingEdges):
     shares: Doubles
     total: Doubles
     engine: Doubles
-    driven: NDArray[np.bool_]
+    driven: Bools
 
     @property
     def ticks(self) -> int:
@@ -187,10 +187,7 @@ class _Ends(IncomingEdges):
 
 
 def _refuse_replaced(flows: EdgeFlows, flow: EdgeFlow, skills: Sequence[int]) -> None:
-    """ReplacedInfluenceError where one of the skills has other influence than all above it have sent, and the master 1.
-
-    Asked of every answer about influence: a run says in its rows that it was changed, and nowhere else.
-    """
+    """ReplacedInfluenceError where a skill has other influence than all above it have sent, and the master 1."""
     for skill in skills:
         sent = accumulated(flow.carried[:, flows.links_to.get(("skill", skill), [])])
         expected = np.ones_like(sent) if skill == flows.skills[0] else sent

@@ -30,7 +30,7 @@ from mindrun.graph.graph import (
     Variation,
 )
 from mindrun.kinds.registry import arguments, names
-from mindrun.kinds.things.about import OR
+from mindrun.kinds.things.thing import OR
 from mindrun.numbers.quantity import EXPRESSION, SENSOR, SERVO, SKILL, THING, Quantity, Reference
 
 from mindlang.compiler.names import Names

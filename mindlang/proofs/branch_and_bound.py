@@ -3,6 +3,7 @@
 A box whose bounds reach no further than what the skill was seen to send cannot be improved on, and is left alone.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import reduce
 from typing import NamedTuple
@@ -11,11 +12,10 @@ import numpy as np
 from mindrun.graph.graph import Edge, Gate, Program, Skill
 from mindrun.graph.weights import Weights
 from mindrun.kinds.functions.mlp import Mlp
-from numpy.typing import NDArray
+from mindrun.numbers.arrays import Bools, Singles
 
 from mindlang.proofs.interval import (
     Boxes,
-    Singles,
     is_known,
     join_boxes,
     perceptron_matrices,
@@ -52,7 +52,7 @@ class Pool(NamedTuple):
     most: Singles
     low: Singles
     high: Singles
-    sure: NDArray[np.bool_]
+    sure: Bools
 
 
 def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[EdgeRange, ...]:
@@ -144,6 +144,24 @@ def sway_of(skill: Skill, weights: Weights | None) -> Singles:
     for matrix in perceptron_matrices(skill, weights)[:1]:
         sway += np.minimum(np.abs(matrix), 1e6).sum(axis=0)
     return sway
+
+
+def can_close(boxes: Boxes, sway: Singles, most: int, is_open: Callable[[Boxes], Bools]) -> bool:
+    """True if no box `is_open` any more after each that is was cut, and so on; False where that makes too many."""
+    made = len(boxes.low)
+    while len(boxes.low):
+        now, boxes = (select_boxes(boxes, part) for part in (slice(BOXES_PER_ROUND), slice(BOXES_PER_ROUND, None)))
+        open_ = select_boxes(now, is_open(now))
+        made += 2 * len(open_.low)
+        if not len(open_.low):
+            continue
+        if made > most or not ((open_.high - open_.low) * sway).max(axis=1, initial=0).all():
+            return False
+        cut = halves(open_, sway)
+        if (cut.low == cut.high).all(axis=1).any():
+            return False  # between neighbours of float32 nothing is left to cut
+        boxes = join_boxes(cut, boxes)
+    return True
 
 
 def halves(boxes: Boxes, sway: Singles) -> Boxes:

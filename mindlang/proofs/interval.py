@@ -12,13 +12,10 @@ import numpy as np
 from mindrun.graph.graph import Gate, Program, Skill
 from mindrun.graph.weights import Weights, genes
 from mindrun.numbers.arithmetic import sigmoid
-from mindrun.numbers.arrays import OPERATORS
+from mindrun.numbers.arrays import OPERATORS, Bools, Doubles, Singles
 from mindrun.numbers.expression import fold
 from mindrun.numbers.network import matrices
 from numpy.typing import NDArray
-
-Singles = NDArray[np.float32]
-Doubles = NDArray[np.float64]
 
 # More than the rounded sigmoid falls while its argument rises: 3.58e-7, measured over all float32 (docs/proofs.md).
 SIGMOID_ERROR = np.float32(5e-7)
@@ -36,7 +33,7 @@ class SentBounds(NamedTuple):
 
     low: Singles
     high: Singles
-    sure: NDArray[np.bool_]
+    sure: Bools
 
 
 Bounds = TypeVar("Bounds", bound=tuple[Any, ...])  # NamedTuples of arrays [boxes, …]
@@ -47,7 +44,7 @@ def whole_box(width: int) -> Boxes:
     return Boxes(np.zeros((1, width), np.float32), np.ones((1, width), np.float32))
 
 
-def select_boxes(of: Bounds, boxes: slice | NDArray[np.intp] | NDArray[np.bool_]) -> Bounds:
+def select_boxes(of: Bounds, boxes: slice | NDArray[np.intp] | Bools) -> Bounds:
     """Some of the boxes."""
     some: list[Any] = [each[boxes] for each in of]
     return type(of)(*some)
@@ -86,7 +83,7 @@ def sent_bounds(skill: Skill, weights: Weights | None, boxes: Boxes) -> SentBoun
     return SentBounds(np.clip(low, 0, 1), np.clip(high, 0, 1), sure)
 
 
-def _choose(influences: Sequence[int], low: Singles, high: Singles, sure: NDArray[np.bool_]) -> None:
+def _choose(influences: Sequence[int], low: Singles, high: Singles, sure: Bools) -> None:
     """Bounds of what is sent in place of those of values before the clamp: 1 over the greatest, of equals the first."""
     always, never = np.ones((2, *low.shape), np.bool_)
     for one in influences:
@@ -98,7 +95,7 @@ def _choose(influences: Sequence[int], low: Singles, high: Singles, sure: NDArra
     low[:, influences], high[:, influences] = always[:, influences], ~never[:, influences]
 
 
-def _gated(gate: Gate, low: Singles, high: Singles, boxes: Boxes) -> tuple[Singles, Singles, NDArray[np.bool_]]:
+def _gated(gate: Gate, low: Singles, high: Singles, boxes: Boxes) -> tuple[Singles, Singles, Bools]:
     """The bounds of what is sent through a gate, and where it is sure that something is."""
     never, always = expression_bounds(gate.when, boxes)
     is_known = np.isfinite(never) & np.isfinite(always)
@@ -163,10 +160,7 @@ def expression_bounds(program: Program, boxes: Boxes) -> tuple[Singles, Singles]
 
 
 def _combined(operator: str, left: tuple[Doubles, Doubles], right: tuple[Doubles, Doubles]) -> tuple[Doubles, Doubles]:
-    """All operators have their least and greatest value in corners, unless the divisor can be 0.
-
-    What may be no number makes no number of all that is computed from it.
-    """
+    """All operators have their least and greatest value in corners, unless the divisor can be 0."""
     corners = [OPERATORS[operator](a, b) for a in left for b in right]
     low, high = np.minimum.reduce(corners), np.maximum.reduce(corners)
     wild = ~(np.isfinite(low) & np.isfinite(high) & np.isfinite(left[0]) & np.isfinite(right[0]))

@@ -23,14 +23,14 @@ from itertools import islice
 import numpy as np
 from mindrun.graph.graph import Edge, Graph, Skill
 from mindrun.graph.weights import reachable
+from mindrun.numbers.arrays import Doubles
 from networkx import DiGraph, all_simple_paths
-from numpy.typing import NDArray
 
 from mindlang.compiler.hierarchy import with_ancestors
 from mindlang.proofs.interval import Boxes, expression_bounds, whole_box
 
 MAX_COUNTED_PATHS = 10**15  # stands for itself and for more
-Row = NDArray[np.float64]  # one value per actuator
+Row = Doubles  # one value per actuator
 
 
 @dataclass(frozen=True, slots=True)

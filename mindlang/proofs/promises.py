@@ -5,7 +5,7 @@ the number itself, which is a cell of no width. In a cell such a condition holds
 sent is learnt, branch and bound goes on from there. What a skill maintains and achieves depends on its world.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
 from math import prod
@@ -14,13 +14,14 @@ from typing import Literal
 import numpy as np
 from mindrun.graph.graph import Graph, Program, Promise, Skill
 from mindrun.graph.skill_sets import reachable
-from mindrun.graph.weights import Weights
+from mindrun.numbers.arrays import Bools, Singles, WeightsBySkill
+from mindrun.numbers.expression import leaves
 from networkx import DiGraph
 
 from mindlang.compiler.hierarchy import with_ancestors
-from mindlang.proofs.branch_and_bound import by_itself, halves, sway_of
-from mindlang.proofs.interval import Boxes, Singles, expression_bounds, is_known, join_boxes, select_boxes, whole_box
-from mindlang.proofs.reach import BOXES_PER_ROUND, MAX_BOX_SKILLS, MAX_BOXES, ProvedReach, flow
+from mindlang.proofs.branch_and_bound import can_close
+from mindlang.proofs.interval import Boxes, expression_bounds, is_known, whole_box
+from mindlang.proofs.reach import MAX_BOX_SKILLS, MAX_BOXES, ProvedReach, flow, sway_of_all
 from mindlang.proofs.trying import TRIED_READINGS, readings_to_try, think_rows
 
 Claim = Literal["always", "can be broken", "not excluded"]
@@ -41,7 +42,7 @@ class Requirement:
     weights: tuple[str, ...]
 
 
-def prove_requirements(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach) -> Iterator[Requirement]:
+def prove_requirements(graph: Graph, weights: WeightsBySkill, found: ProvedReach) -> Iterator[Requirement]:
     """A claim for each line, of the skills below the master; `found` are the bounds of the hierarchy."""
     skills = reachable(graph, graph.master)
     known = all(is_known(skill, weights.get(skill.owner)) for skill in skills)
@@ -66,7 +67,7 @@ def _cells(graph: Graph, above: list[Skill], program: Program) -> Boxes:
         for (word, row), (other, number), (compare, _) in zip(each, each[1:], each[2:], strict=False):
             if (word, other) == ("reading", "number") and compare in COMPARISONS and 0 < number < 1:
                 ends.setdefault(int(row), set()).add(float(np.float32(number)))
-    ends = {row: its for row, its in ends.items() if row in {int(x) for word, x in program if word == "reading"}} | ends
+    ends = {row: its for row, its in ends.items() if row in leaves(program, "reading")} | ends
     sides: dict[int, list[tuple[float, float]]] = {}
     for row, its in ends.items():
         marks = [np.float32(mark) for mark in sorted(its)]
@@ -86,7 +87,7 @@ def _bounds(program: Program, boxes: Boxes) -> tuple[Singles, Singles]:
         return expression_bounds(program, boxes)
 
 
-def _broken(graph: Graph, weights: Mapping[str, Weights], cells: Boxes, program: Program, skill: int) -> Singles | None:
+def _broken(graph: Graph, weights: WeightsBySkill, cells: Boxes, program: Program, skill: int) -> Singles | None:
     """Readings for which a skill acts where the program does not hold; None where none of those tried are such."""
     tried = np.concatenate([cells.low, cells.high, readings_to_try(graph.width, TRIED_READINGS)])
     acts = think_rows(graph, weights, tried).influence[:, skill] > 0
@@ -97,7 +98,7 @@ def _broken(graph: Graph, weights: Mapping[str, Weights], cells: Boxes, program:
 
 def _may_break(
     graph: Graph,
-    weights: Mapping[str, Weights],
+    weights: WeightsBySkill,
     found: ProvedReach,
     cells: Boxes,
     program: Program,
@@ -105,22 +106,11 @@ def _may_break(
     above: list[Skill],
 ) -> bool:
     """False if in all boxes, cut as often as that helps, the skill has no influence or the program holds."""
-    sway = np.zeros(graph.width, np.float32)
-    sway[[int(x) for word, x in program if word == "reading"]] = 1
-    for each in above:
-        sway[list(each.inputs)] += sway_of(by_itself(each), weights.get(each.owner))
-    waiting, made, most = cells, len(cells.low), min(MAX_BOXES, MAX_BOX_SKILLS // len(found.edges)) + len(cells.low)
-    while len(waiting.low):
-        now = select_boxes(waiting, slice(BOXES_PER_ROUND))
-        waiting = select_boxes(waiting, slice(BOXES_PER_ROUND, None))
-        holds = _bounds(program, now)[0] > 0
-        open_ = select_boxes(now, (flow(graph, weights, found, now).high[:, skill] > 0) & ~holds)
-        made += 2 * len(open_.low)
-        if len(open_.low) and (made > most or not ((open_.high - open_.low) * sway).max(axis=1).all()):
-            return True
-        if len(open_.low):
-            cut = halves(open_, sway)
-            if (cut.low == cut.high).all(axis=1).any():
-                return True
-            waiting = join_boxes(cut, waiting)
-    return False
+    sway = sway_of_all(graph, above, weights, program)
+    most = min(MAX_BOXES, MAX_BOX_SKILLS // len(found.edges)) + len(cells.low)
+
+    def is_open(boxes: Boxes) -> Bools:
+        acts = flow(graph, weights, found, boxes).high[:, skill] > 0
+        return acts & ~(_bounds(program, boxes)[0] > 0)
+
+    return not can_close(cells, sway, most, is_open)

@@ -7,7 +7,8 @@ from typing import Any, Literal
 
 from mindrun.graph.graph import Actuator, Edge, Graph, Skill
 from mindrun.graph.scopes import influence_scopes, within_scope
-from mindrun.graph.weights import Weights, reachable
+from mindrun.graph.weights import reachable
+from mindrun.numbers.arrays import WeightsBySkill
 from networkx import DiGraph
 
 from mindlang.compiler.hierarchy import with_ancestors
@@ -89,7 +90,7 @@ class Proof:
 class _Rests:
     """The skills on whose weights a claim rests: those on the paths whose weights narrow 0..1 to less."""
 
-    def __init__(self, graph: Graph, weights: Mapping[str, Weights], bounds: ProvedReach) -> None:
+    def __init__(self, graph: Graph, weights: WeightsBySkill, bounds: ProvedReach) -> None:
         self._weights = weights
         self._place = graph.skill_numbers
         self._flow, self._live = DiGraph(), DiGraph()  # what is sent, and that of it which is not always 0
@@ -128,7 +129,7 @@ class _Rests:
         return tuple(sorted({*names}, key=self._place.__getitem__))
 
 
-def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
+def prove(graph: Graph, weights: WeightsBySkill, delta: float) -> Proof:
     """All claims about a mind under its master; `delta` is the influence of a leak.
 
     Of an actuator they are those of the hierarchy without the influence that is over others.
@@ -155,9 +156,7 @@ def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
     )
 
 
-def _bounded(
-    graph: Graph, weights: Mapping[str, Weights], delta: float
-) -> tuple[ProvedReach, _Rests, list[ActuatorClaims]]:
+def _bounded(graph: Graph, weights: WeightsBySkill, delta: float) -> tuple[ProvedReach, _Rests, list[ActuatorClaims]]:
     """The bounds of a hierarchy, what they rest on, and the claims about each actuator."""
     count = len(graph.actuators)
     found, alone = influence_edges(graph), prove_reach(graph, weights)

@@ -9,24 +9,24 @@ its rounding: with n drivers a share of at most (2n + 1)·2^−24, for which ROU
 are left.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
+from typing import NamedTuple
 
 import numpy as np
-from mindrun.graph.graph import Graph, Skill
-from mindrun.graph.weights import Weights, reachable
-from numpy.typing import NDArray
+from mindrun.graph.graph import Graph, Program, Skill
+from mindrun.graph.weights import reachable
+from mindrun.numbers.arrays import Bools, Singles, WeightsBySkill
+from mindrun.numbers.expression import leaves
 
-from mindlang.proofs.branch_and_bound import EdgeRange, by_itself, halves, ranges, sway_of
-from mindlang.proofs.interval import Boxes, SentBounds, Singles, join_boxes, select_boxes, sent_bounds, whole_box
+from mindlang.proofs.branch_and_bound import EdgeRange, by_itself, can_close, ranges, sway_of
+from mindlang.proofs.interval import Boxes, SentBounds, sent_bounds, whole_box
 
-Bools = NDArray[np.bool_]
 MAX_SKILL_BOXES, MAX_TOTAL_BOXES = 20_000, 500_000  # for one skill, for all of them
 ROUNDING_MARGIN = 2.0**-22
 MAX_BOXES, MIN_BOXES, MAX_BOX_SKILLS = 8192, 16, 100_000  # of all readings: boxes, and boxes times skills
-BOXES_PER_ROUND = 256
 MAX_CHOICES = 64  # that all skills make together, which are looked at one by one
 MIN_INFLUENCE = 1e-30  # below this, influence is so small that rounding alone may decide a command
 
@@ -61,8 +61,7 @@ class ProvedReach:
     actuators: tuple[Driven, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class InfluenceBounds:
+class InfluenceBounds(NamedTuple):
     """Bounds of the influence of each skill [boxes, skills], and of Σ influence of each actuator [boxes, actuators]."""
 
     low: Singles
@@ -71,7 +70,7 @@ class InfluenceBounds:
     total_high: Singles
 
 
-def prove_reach(graph: Graph, weights: Mapping[str, Weights]) -> ProvedReach:
+def prove_reach(graph: Graph, weights: WeightsBySkill) -> ProvedReach:
     """Bounds for any readings in 0..1; of skills without weights, and of procedures, only that they send 0..1."""
     skills = reachable(graph, graph.master)
     boxes = max(1, min(MAX_SKILL_BOXES, MAX_TOTAL_BOXES // len(skills)))
@@ -83,8 +82,8 @@ def prove_reach(graph: Graph, weights: Mapping[str, Weights]) -> ProvedReach:
             for edge, sends in zip(skill.edges, edges[skill.name], strict=True):
                 if edge.to == "actuator":
                     drivers[edge.target].append(sends)
-    influence = [Bound(*bounds) for bounds in zip(found.low[0].tolist(), found.high[0].tolist(), strict=True)]
-    totals = [Bound(*bounds) for bounds in zip(found.total_low[0].tolist(), found.total_high[0].tolist(), strict=True)]
+    influence = map(Bound, found.low[0].tolist(), found.high[0].tolist())
+    totals = map(Bound, found.total_low[0].tolist(), found.total_high[0].tolist())
     return ProvedReach(
         edges,
         {skill.name: bound for skill, bound in zip(graph.skills, influence, strict=True) if skill.name in edges},
@@ -115,12 +114,8 @@ def influence_bounds(graph: Graph, boxes: int, sends: Callable[[Skill], SentBoun
         can_be = np.logical_and.reduce([possible for possible, _ in made])[:, None]
         names = (skill.name for skill in choosing)
         case = _sums(graph, boxes, sent | dict(zip(names, (bounds for _, bounds in made), strict=True)))
-        found = InfluenceBounds(
-            np.where(can_be, np.minimum(found.low, case.low), found.low),
-            np.where(can_be, np.maximum(found.high, case.high), found.high),
-            np.where(can_be, np.minimum(found.total_low, case.total_low), found.total_low),
-            np.where(can_be, np.maximum(found.total_high, case.total_high), found.total_high),
-        )
+        wider = zip((np.minimum, np.maximum) * 2, found, case, strict=True)
+        found = InfluenceBounds(*(np.where(can_be, widest(so_far, here), so_far) for widest, so_far, here in wider))
     return found
 
 
@@ -171,9 +166,7 @@ def _mean(drivers: Sequence[EdgeRange]) -> Bound | None:
     return Bound(low if low == 1 else low * (1 - margin), min(1.0, high * (1 + margin)))
 
 
-def tighten(
-    graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, can_be_zero: Sequence[bool]
-) -> ProvedReach:
+def tighten(graph: Graph, weights: WeightsBySkill, found: ProvedReach, can_be_zero: Sequence[bool]) -> ProvedReach:
     """The bounds with a better least Σ influence, for those actuators whose Σ is neither above 0 nor was seen at 0."""
     most = min(MAX_BOXES, MAX_BOX_SKILLS // len(found.edges))
     actuators = list(found.actuators)
@@ -184,31 +177,30 @@ def tighten(
     return replace(found, actuators=tuple(actuators))
 
 
-def _least(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, actuator: int, most: int) -> float:
+def _least(graph: Graph, weights: WeightsBySkill, found: ProvedReach, actuator: int, most: int) -> float:
     """The least Σ influence of an actuator over boxes that cover all readings; 0 where that would take too many."""
-    sway = np.zeros(graph.width, np.float32)  # how much each reading moves what all skills send, roughly
-    for skill in reachable(graph, graph.master):
+    least = np.inf
+
+    def is_open(boxes: Boxes) -> Bools:
+        nonlocal least
+        low = flow(graph, weights, found, boxes).total_low[:, actuator]
+        least = min(least, float(low.min(initial=np.inf, where=low > 0)))
+        return low <= 0
+
+    sway = sway_of_all(graph, reachable(graph, graph.master), weights)
+    return least if can_close(whole_box(graph.width), sway, most, is_open) else 0.0
+
+
+def sway_of_all(graph: Graph, skills: Iterable[Skill], weights: WeightsBySkill, program: Program = ()) -> Singles:
+    """How much each of all readings moves what some skills send, and the program, roughly."""
+    sway = np.zeros(graph.width, np.float32)
+    sway[[*leaves(program, "reading")]] = 1
+    for skill in skills:
         sway[list(skill.inputs)] += sway_of(by_itself(skill), weights.get(skill.owner))
-    waiting = whole_box(graph.width)
-    least, made = np.inf, 1
-    while len(waiting.low):
-        now = select_boxes(waiting, slice(BOXES_PER_ROUND))
-        waiting = select_boxes(waiting, slice(BOXES_PER_ROUND, None))
-        low = flow(graph, weights, found, now).total_low[:, actuator]
-        is_open = low <= 0
-        made += 2 * int(is_open.sum())
-        if made > most or not sway.any():
-            return 0.0
-        least = min(least, float(low[~is_open].min(initial=np.inf)))
-        if is_open.any():
-            cut = halves(select_boxes(now, is_open), sway)
-            if (cut.low == cut.high).any():
-                return 0.0  # between neighbours of float32 nothing is left to cut
-            waiting = join_boxes(cut, waiting)
-    return least
+    return sway
 
 
-def flow(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, boxes: Boxes) -> InfluenceBounds:
+def flow(graph: Graph, weights: WeightsBySkill, found: ProvedReach, boxes: Boxes) -> InfluenceBounds:
     """Influence in each box, from what every skill sends there, or what it sends anywhere, whichever says more."""
 
     def sends(skill: Skill) -> SentBounds:

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from mindrun.engine.engine import procedure_sources
 from mindrun.graph.scopes import influence_scopes
+from mindrun.numbers.arrays import Singles
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import joined, trace
-from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import edge_flows
 from mindlang.run.setup import RunSetup
@@ -57,7 +57,7 @@ def record_undriven(setup: RunSetup, seed: int, prepare: Callable[[Rollout], Non
     return Recorded(setup.task.name, seed, len(ticks), int(run.jobs.faults[0]), actuators)
 
 
-def undriven(influence: NDArray[np.float32], commands: NDArray[np.float32]) -> Undriven:
+def undriven(influence: Singles, commands: Singles) -> Undriven:
     """The ticks without influence on an actuator, the first of them, and its range of commands; arrays are [ticks]."""
     still = np.flatnonzero(influence == 0)
     first = int(still[0]) + 1 if len(still) else None

@@ -8,13 +8,13 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from mindrun.graph.graph import Graph
+from mindrun.numbers.arrays import Singles
 from mindrun.terminal.tick_count import ticks as in_words
 from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.proofs.interval import Singles
 from mindlang.proofs.paths import MAX_COUNTED_PATHS, Leak
 from mindlang.proofs.promises import Requirement
 from mindlang.proofs.proof import DECLARATION, ActuatorClaims, EdgeClaim, Proof
@@ -115,7 +115,7 @@ def _example(graph: Graph, tried: Tried) -> Data | None:
 def readings_by_name(graph: Graph, readings: Singles) -> dict[str, list[float]]:
     """Readings [graph.width] by sensor and memory."""
     values = readings.tolist()
-    found = {sensor.name: values[sensor.start : sensor.start + sensor.width] for sensor in graph.sensors}
+    found = {sensor.name: values[sensor.place] for sensor in graph.sensors}
     return found | {memory.name: [values[memory.start]] for memory in graph.memories}
 
 

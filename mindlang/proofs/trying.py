@@ -3,20 +3,17 @@
 Readings for which nothing influences an actuator are looked for by trying, so that one that is found is a proof.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from operator import neg
 
 import numpy as np
 from mindrun.graph.graph import Graph, Program, Skill
 from mindrun.graph.weights import Weights, genes, reachable
-from mindrun.numbers.arrays import OPERATORS
-from mindrun.numbers.expression import fold
+from mindrun.numbers.arrays import Singles, WeightsBySkill, columns, evaluate_rows
 from mindrun.numbers.network import FLOAT32, NOTHING
 from networkx import DiGraph
 
 from mindlang.compiler.hierarchy import with_ancestors
-from mindlang.proofs.interval import Doubles, Singles, is_known, perceptron_matrices
+from mindlang.proofs.interval import is_known, perceptron_matrices
 
 TRIED_READINGS, MAX_WEIGHT_READINGS = 4096, 20_000_000  # readings, and weights times readings
 
@@ -30,7 +27,7 @@ class ThoughtRows:
     command: Singles
 
 
-def think_rows(graph: Graph, weights: Mapping[str, Weights], readings: Singles) -> ThoughtRows:
+def think_rows(graph: Graph, weights: WeightsBySkill, readings: Singles) -> ThoughtRows:
     """Equations 2 and 3 for readings [rows, graph.width], as `mindrun.engine.think` has them; no procedures."""
     places = graph.skill_numbers
     influence = np.zeros((len(readings), len(graph.skills)), np.float32)
@@ -52,9 +49,11 @@ def think_rows(graph: Graph, weights: Mapping[str, Weights], readings: Singles) 
 
 def sent_values(skill: Skill, weights: Weights | None, readings: Singles) -> Singles:
     """The values that a skill sends [rows, edges] before the clamp; NaN where a gate is closed and nothing is sent."""
-    outputs = _outputs(skill, weights, readings)
+    outputs, layers = np.zeros((len(readings), skill.outputs), np.float32), perceptron_matrices(skill, weights)
     found = np.empty((len(readings), len(skill.edges)), np.float32)
     with np.errstate(all="ignore"):
+        if layers:
+            outputs = skill.function.forward(FLOAT32, layers, readings[:, list(skill.inputs)], NOTHING)[0]
         for number, edge in enumerate(skill.edges):
             found[:, number] = _evaluate(edge.value, readings) if edge.output is None else outputs[:, edge.output]
             if gate := edge.gate:
@@ -71,23 +70,8 @@ def sent_values(skill: Skill, weights: Weights | None, readings: Singles) -> Sin
     return found
 
 
-def _outputs(skill: Skill, weights: Weights | None, readings: Singles) -> Singles:
-    layers = perceptron_matrices(skill, weights)
-    if not layers:
-        return np.zeros((len(readings), skill.outputs), np.float32)
-    with np.errstate(all="ignore"):
-        found: Singles = skill.function.forward(FLOAT32, layers, readings[:, list(skill.inputs)], NOTHING)[0]
-    return found
-
-
 def _evaluate(program: Program, readings: Singles) -> Singles:
-    def leaf(word: str, operand: float | int) -> Doubles:
-        if word == "reading":
-            return readings[:, int(operand)].astype(np.float64)
-        return np.full(len(readings), operand, np.float64)
-
-    found: Doubles = fold(program, leaf, neg, lambda operator, left, right: OPERATORS[operator](left, right))
-    return found.astype(np.float32)
+    return evaluate_rows(program, columns(readings), len(readings)).astype(np.float32)
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +86,7 @@ class Tried:
     still: tuple[str, ...] = ()
 
 
-def try_readings(graph: Graph, weights: Mapping[str, Weights]) -> list[Tried]:
+def try_readings(graph: Graph, weights: WeightsBySkill) -> list[Tried]:
     """The trial of each actuator, empty where the function of a skill below the master is not known."""
     skills = reachable(graph, graph.master)
     if not all(is_known(skill, weights.get(skill.owner)) for skill in skills):

@@ -5,8 +5,9 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from mindrun.engine.promises import BY_INFLUENCE, BY_SKILL, HELD, PromiseWatcher, Singles
+from mindrun.engine.promises import BY_INFLUENCE, BY_SKILL, HELD, PromiseWatcher
 from mindrun.graph.graph import Graph
+from mindrun.numbers.arrays import Singles
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from numpy.typing import NDArray

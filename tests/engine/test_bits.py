@@ -17,28 +17,21 @@ from tests.plain import Plain
 
 
 @given(random_case(), st.data())
-@settings(max_examples=cases(300), suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=cases(200), suppress_health_check=[HealthCheck.too_slow])
 def test_same_bits_as_plain_python(case: Case, data: st.DataObject) -> None:
+    """In a run and, once all is forgotten, in that run again."""
     master = data.draw(st.sampled_from([skill.name for skill in case.graph.skills]))
-    engine, plain = (
-        Engine(Policy(case.graph, case.weights), PROCEDURES, master),
-        Plain(case.graph, case.weights, master),
-    )
-    for readings in case.readings:
-        commands = engine.tick(readings)
-        assert commands.tobytes() == np.array(plain.tick(readings), np.float32).tobytes()
-        assert engine.influence.tobytes() == np.array(plain.influence, np.float32).tobytes()
-        assert np.array_equal(engine.readings, np.array(plain.readings, np.float32), equal_nan=True)
-        assert engine.faults == plain.faults
-        assert ((commands >= 0) & (commands <= 1)).all()
-
-
-@given(random_case())
-def test_reset_forgets_everything(case: Case) -> None:
-    engine = Engine(Policy(case.graph, case.weights), PROCEDURES)
-    first = [engine.tick(readings).tobytes() for readings in case.readings]
-    engine.reset()
-    assert [engine.tick(readings).tobytes() for readings in case.readings] == first
+    engine = Engine(Policy(case.graph, case.weights), PROCEDURES, master)
+    for _ in range(2):
+        plain = Plain(case.graph, case.weights, master)
+        for readings in case.readings:
+            commands = engine.tick(readings)
+            assert commands.tobytes() == np.array(plain.tick(readings), np.float32).tobytes()
+            assert engine.influence.tobytes() == np.array(plain.influence, np.float32).tobytes()
+            assert np.array_equal(engine.readings, np.array(plain.readings, np.float32), equal_nan=True)
+            assert engine.faults == plain.faults
+            assert ((commands >= 0) & (commands <= 1)).all()
+        engine.reset()
 
 
 def test_sigmoid_is_one() -> None:
@@ -58,6 +51,6 @@ def test_sigmoid_is_one() -> None:
 
 @pytest.mark.parametrize("far", [1.0, 10.0, 1e5])
 def test_waves_are_those_of_the_mathematicians(far: float) -> None:
-    for x in np.linspace(-far, far, 20_001).tolist():
+    for x in np.linspace(-far, far, 4001).tolist():
         assert abs(sine(x) - math.sin(x)) < 2e-16
         assert abs(cosine(x) - math.cos(x)) < 2e-16

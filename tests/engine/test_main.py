@@ -2,13 +2,14 @@
 
 import json
 import subprocess
-import sys
 import tomllib
 from pathlib import Path
+from tempfile import NamedTemporaryFile
 
 import numpy as np
 import pytest
 from mindrun import VERSION
+from mindrun.__main__ import main
 from mindrun.graph.bundle import Bundle, write_bundle
 from mindrun.graph.graph import Edge
 from mindrun.graph.policy import Policy
@@ -20,6 +21,7 @@ from mindrun.kinds.memory import Cell
 from mindlang.compiler.compile import load
 from tests.minds import always, mind, rule, skill
 from tests.project.sources import ROOT
+from tests.surroundings.streams import ended
 
 
 @pytest.fixture
@@ -34,9 +36,12 @@ def bundle(tmp_path: Path) -> Path:
 
 
 def mindrun(*words: object, text: str = "") -> subprocess.CompletedProcess[str]:
-    """Run the command with a standard input."""
-    command = [sys.executable, "-m", "mindrun", *map(str, words)]
-    return subprocess.run(command, input=text, capture_output=True, text=True, timeout=600, check=False)
+    """Run the command with a standard input, in a fork of this process."""
+    with NamedTemporaryFile("w", encoding="utf-8") as given:
+        given.write(text)
+        given.flush()
+        code, out, err = ended(main, words, stdin=given.name)
+    return subprocess.CompletedProcess([], code, out.decode(), err.decode())
 
 
 def test_it_says_what_a_bundle_holds(bundle: Path) -> None:

@@ -4,13 +4,14 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.engine.promises import BY_INFLUENCE, BY_SKILL, HELD, NOT_JUDGED, PromiseWatcher
 from mindrun.graph.graph import Graph, Promise
 from mindrun.numbers.expression import evaluate
 from numpy.typing import NDArray
 
+from tests.draws import cases
 from tests.hierarchies import random_graph
 
 ROWS = 12
@@ -35,6 +36,7 @@ def judged_one_by_one(promises: list[Promise], readings: NDArray[np.float32], ac
 
 
 @given(random_graph(), st.data())
+@settings(max_examples=cases(50))
 def test_promises_are_judged_as_they_are_said(graph: Graph, data: st.DataObject) -> None:
     words = ("requires", "maintains", "achieves", "requires")
     over = [(("reading", row % graph.width), ("number", 0.4), (">", 0)) for row in range(len(words))]

@@ -26,6 +26,7 @@ def influenced(graph: Graph, name: str) -> set[str]:
 @given(random_graph(), st.data())
 @settings(max_examples=12)
 def test_a_lesson_teaches_a_skill_or_all_that_learn_below_it(graph: Graph, data: st.DataObject) -> None:
+    """A genome is the weights of those who learn, one after the other."""
     frozen = data.draw(st.sets(st.sampled_from(range(len(graph.skills)))))
     skills = tuple(replace(each, frozen=number in frozen) for number, each in enumerate(graph.skills))
     graph = replace(graph, skills=skills)
@@ -38,11 +39,6 @@ def test_a_lesson_teaches_a_skill_or_all_that_learn_below_it(graph: Graph, data:
         taught = [other for other in skills if other.name in owners and not other.frozen]
         assert learners(graph, replace(lesson, with_subskills=True)) == tuple(other.name for other in taught)
         assert learners(graph, lesson) == tuple(other.name for other in taught if other.name == each.owner)
-
-
-@given(random_graph(), st.data())
-@settings(max_examples=12)
-def test_a_genome_is_the_weights_of_its_learners_one_after_the_other(graph: Graph, data: st.DataObject) -> None:
     learning = [each for each in graph.skills if genes(each)]
     chosen = data.draw(st.lists(st.sampled_from(learning), unique=True, min_size=1)) if learning else []
     genome = np.arange(sum(map(genes, chosen)), dtype=np.float32)

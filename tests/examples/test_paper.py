@@ -1,12 +1,15 @@
 """The paper's protocol and its tables, on a tiny scale from nothing and with the weights that are shipped."""
 
-import os
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import redirect_stdout
 from dataclasses import dataclass
 from importlib import import_module
+from io import StringIO
 from pathlib import Path
+from runpy import run_path
 from types import SimpleNamespace
 from typing import Any
 
@@ -20,14 +23,32 @@ PAPER = COLLECT / "paper"
 SKILLS = ("GoToObject", "GoToDropZone", "Avoid", "GoToObject+Avoid", "GoToDropZone+Avoid", "Collect")
 
 
-def python(*arguments: str) -> "subprocess.CompletedProcess[str]":
-    command = [sys.executable, *arguments]
-    return subprocess.run(command, capture_output=True, text=True, check=True, cwd=ROOT, env={**os.environ, "CI": "1"})
+@pytest.fixture(scope="module")
+def paper() -> Iterator[Any]:
+    """The paper's scripts, which import one another by their names, with few runs for what is not taught."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(str(PAPER))
+        patch.setenv("CI", "1")
+        teach, tables = import_module("teach"), import_module("tables")
+        patch.setattr(teach, "RUN_COUNT", 1)
+        patch.setattr(tables, "FRESH_LAYOUTS", 4)
+        programs = {"teach.py": teach.main, "": run_path(str(PAPER / "__main__.py"))["main"]}
+        yield SimpleNamespace(
+            measure=import_module("measure"), tables=import_module("protocol").TABLES, programs=programs
+        )
 
 
-def teach(out: Path, *files: str) -> str:
-    options = ("--attempts", "2", "--others", "1", "--scale", "1e-4", "--population", "4", "--seed", "1")
-    return python(str(PAPER / "teach.py"), *options, "--out", str(out), *files).stdout
+def run(paper: Any, program: str, *words: object) -> str:
+    """What a script prints; SystemExit where it is refused."""
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(StringIO()) as said:
+        patch.setattr("sys.argv", [program, *map(str, words)])
+        paper.programs[program]()
+    return said.getvalue()
+
+
+def teach(paper: Any, out: Path, *files: str) -> str:
+    options = ("--attempts", 2, "--others", 1, "--scale", "1e-4", "--population", 4, "--seed", 1, "--workers", 1)
+    return run(paper, "teach.py", *options, "--out", out, *files)
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -45,11 +66,11 @@ class Taught:
 
 
 @pytest.fixture(scope="module")
-def taught(tmp_path_factory: pytest.TempPathFactory) -> Taught:
+def taught(paper: Any, tmp_path_factory: pytest.TempPathFactory) -> Taught:
     folder = tmp_path_factory.mktemp("paper")
-    teach(folder, "collect.mind")
+    teach(paper, folder, "collect.mind")
     before = contents(folder)
-    return Taught(folder, before, teach(folder, "collect.mind", "on_the_job.mind", "power.mind"))
+    return Taught(folder, before, teach(paper, folder, "collect.mind", "on_the_job.mind", "power.mind"))
 
 
 def test_a_lesson_under_another_master_changes_only_the_learners_weights(taught: Taught) -> None:
@@ -73,11 +94,9 @@ def test_what_was_taught_is_not_taught_again(taught: Taught) -> None:
     assert re.search(r"\d (s|min)  collect.mind", taught.said)
 
 
-def test_another_plan_in_the_same_folder_is_refused(taught: Taught) -> None:
-    options = ("--attempts", "3", "--scale", "1e-4", "--out", str(taught.folder))
-    refused = subprocess.run([sys.executable, str(PAPER / "teach.py"), *options], capture_output=True, text=True)
-    assert refused.returncode == 1
-    assert "was begun with ATTEMPTS=2 OTHERS=1 SCALE=0.0001 SEED=1" in refused.stderr
+def test_another_plan_in_the_same_folder_is_refused(paper: Any, taught: Taught) -> None:
+    with pytest.raises(SystemExit, match=r"was begun with ATTEMPTS=2 OTHERS=1 SCALE=0\.0001 SEED=1"):
+        run(paper, "teach.py", "--attempts", 3, "--scale", "1e-4", "--out", taught.folder)
 
 
 @pytest.mark.parametrize(
@@ -90,16 +109,17 @@ def test_another_plan_in_the_same_folder_is_refused(taught: Taught) -> None:
         ("", ("--folder", "/nowhere"), "/nowhere/collect.mind cannot be read"),
     ],
 )
-def test_bad_input_is_one_message(tmp_path: Path, program: str, arguments: tuple[str, ...], message: str) -> None:
-    command = [sys.executable, str(PAPER / program), "--out", str(tmp_path), *arguments]
-    refused = subprocess.run(command, capture_output=True, text=True, cwd=ROOT)
-    assert refused.returncode in {1, 2}
-    assert message in refused.stderr
-    assert "Traceback" not in refused.stderr
+def test_bad_input_is_one_message(
+    paper: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str],
+    program: str, arguments: tuple[str, ...], message: str,
+) -> None:  # fmt: skip
+    with pytest.raises(SystemExit) as refused:
+        run(paper, program, "--out", tmp_path, *arguments)
+    assert message in f"{refused.value.code}\n{capsys.readouterr().err}"
 
 
-def test_the_tables_of_a_tiny_scale(taught: Taught, tmp_path: Path) -> None:
-    said = python(str(PAPER), "--folder", str(taught.folder), "--out", str(tmp_path), "--runs", "2").stdout
+def test_the_tables_of_a_tiny_scale(paper: Any, taught: Taught, tmp_path: Path) -> None:
+    said = run(paper, "", "--folder", taught.folder, "--out", tmp_path, "--runs", 2)
     report = (tmp_path / "RESULTS.md").read_text(encoding="utf-8")
     assert re.search(r"\| hierarchical, curriculum \| 4.63 \(54%\) \| \d+\.\d\d ± \d+\.\d\d \(\d+\.\d%\) \|", report)
     for name in ("monolithic, curriculum", "hierarchical, final task only", "Avoid 2500 generations"):
@@ -144,13 +164,6 @@ SHIPPED = (
 )
 
 
-@pytest.fixture
-def paper(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """The paper's scripts, which import one another by their names."""
-    monkeypatch.syspath_prepend(str(PAPER))
-    return SimpleNamespace(measure=import_module("measure"), tables=import_module("protocol").TABLES)
-
-
 @pytest.mark.parametrize("shipped", SHIPPED, ids=str)
 def test_the_shipped_weights_collect(shipped: Shipped, paper: Any) -> None:
     cases = [case for table in paper.tables for case in table.cases]
@@ -180,5 +193,5 @@ def test_weights_and_logs_are_small() -> None:
 
 @pytest.mark.slow
 def test_the_report_is_what_the_shipped_weights_and_logs_give(tmp_path: Path) -> None:
-    python(str(PAPER), "--out", str(tmp_path))
+    subprocess.run([sys.executable, str(PAPER), "--out", str(tmp_path)], check=True, cwd=ROOT)
     assert (tmp_path / "RESULTS.md").read_text(encoding="utf-8") == (COLLECT / "RESULTS.md").read_text(encoding="utf-8")

@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 from mindrun.graph.graph import Reward, Task, Thing
 from mindrun.graph.policy import Policy
 from mindrun.kinds.scenes.scene import Arena
-from mindrun.kinds.sensors.claw import Contact, Held
-from mindrun.kinds.sensors.floor import Inside
+from mindrun.kinds.sensors.contact import Contact, Held, Inside
 from mindrun.kinds.sensors.nearest import Bearing
 from mindrun.kinds.things.map import Map
 from mindrun.kinds.things.obstacle import Obstacle

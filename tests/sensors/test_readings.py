@@ -13,7 +13,7 @@ from mindrun.graph.graph import Graph, Reward, Sensor
 from mindrun.graph.policy import Policy
 from mindrun.kinds.registry import kinds
 from mindrun.kinds.sensors.bumper import Bumper
-from mindrun.kinds.sensors.floor import Floor
+from mindrun.kinds.sensors.contact import Floor
 from mindrun.kinds.sensors.motion import Odometer, Position, Speed, TurnRate
 from mindrun.kinds.sensors.nearest import Bearing, Distance, Light
 from mindrun.kinds.sensors.rays import Eye

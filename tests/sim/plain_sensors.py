@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 from mindrun.kinds.sensors.bumper import Bumper
-from mindrun.kinds.sensors.floor import Floor
+from mindrun.kinds.sensors.contact import Floor
 from mindrun.kinds.sensors.motion import Odometer, Position, Speed, TurnRate
 from mindrun.kinds.sensors.nearest import Distance, Light
 from mindrun.kinds.sensors.rays import Eye

@@ -11,9 +11,8 @@ from mindrun.kinds.events.event import Collision, Delivery, Exhaustion, Leave, R
 from mindrun.kinds.measures.measure import Advance, Apart, CommandChange, Forward, Progress, Retreat
 from mindrun.kinds.scenes.scene import Arena
 from mindrun.kinds.sensors.battery import Battery
-from mindrun.kinds.sensors.claw import Contact, Held
 from mindrun.kinds.sensors.compass import Compass, Direction
-from mindrun.kinds.sensors.floor import Inside
+from mindrun.kinds.sensors.contact import Contact, Held, Inside
 from mindrun.kinds.sensors.motion import Inertial
 from mindrun.kinds.sensors.nearest import Bearing
 from mindrun.kinds.sensors.rays import RangeFinder

@@ -87,17 +87,17 @@ RANGES = {  # of what varies
 FORCED = st.sampled_from([(2.0, 200.0), (80.0, 80.0)])
 DIAMETERS = st.sampled_from([2.0, 2.0, 0.7, 3.0])
 RECTANGLES = st.sampled_from([2.0, (3.0, 2.0), (1.0, 2.5), (4.0, 1.0)])
-MATERIAL = (  # density, friction, damping
-    st.sampled_from([2.0, 0.5]),
-    st.sampled_from([0.2, 0.2, 0.0, 1.5]),
-    st.sampled_from([5.0, 0.0]),
-    st.sampled_from([20.0, 1.0]),
-)
+MATERIAL = {
+    "density": st.sampled_from([2.0, 0.5]),
+    "friction": st.sampled_from([0.2, 0.2, 0.0, 1.5]),
+    "linear_damping": st.sampled_from([5.0, 0.0]),
+    "angular_damping": st.sampled_from([20.0, 1.0]),
+}
 DRIVES = {
-    st.builds(Disc, DIAMETERS, *MATERIAL): WHEELS | WHEELS | THRUSTERS,
-    st.builds(Box, RECTANGLES, *MATERIAL): WHEELS | WHEELS | THRUSTERS,
-    st.builds(Car, RECTANGLES, st.sampled_from([0.6, 0.3]), *MATERIAL): MOTORS | STEERINGS,
-    st.builds(Holonomic, DIAMETERS, *MATERIAL): THRUSTERS,
+    st.builds(Disc, DIAMETERS, **MATERIAL): WHEELS | WHEELS | THRUSTERS,
+    st.builds(Box, RECTANGLES, **MATERIAL): WHEELS | WHEELS | THRUSTERS,
+    st.builds(Car, RECTANGLES, st.sampled_from([0.6, 0.3]), **MATERIAL): MOTORS | STEERINGS,
+    st.builds(Holonomic, DIAMETERS, **MATERIAL): THRUSTERS,
 }
 
 

@@ -13,11 +13,12 @@ from mindrun.sim.state import empty_state
 from mindlang import limits
 from mindlang.compiler.compile import load
 from mindlang.limits import bytes_for, bytes_of
+from mindlang.run import setup, tables
 from mindlang.run.setup import layouts, run_all
 from mindlang.run.tables import csv_parts, runs_table
 from tests.calling import Call
 
-RUNS = 30_000
+RUNS = 5_000
 MIND = """
 tick 1/60 s
 master Go
@@ -65,7 +66,9 @@ def test_the_estimate_is_near_what_the_lanes_take(tmp_path: Path) -> None:
         assert 0.8 * taken < bytes_of(rollout, 64, 1) - genomes < 2 * taken + 2**20, said
 
 
-def test_the_estimate_is_near_what_many_runs_take(tmp_path: Path) -> None:
+def test_the_estimate_is_near_what_many_runs_take(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(setup, "SLICE_RUNS", 100)
+    monkeypatch.setattr(tables, "SLICE_ROWS", 100)
     graph_of(tmp_path)
     path, line = tmp_path / "m.mind", "  rewards 1 on visit of patch size 4\n"
     path.write_text(path.read_text().replace("lasts 60 s", "lasts 2 ticks").replace(line, line * 9))
@@ -75,7 +78,7 @@ def test_the_estimate_is_near_what_many_runs_take(tmp_path: Path) -> None:
     rollout = Rollout(Policy(graph, {"Go": np.zeros(first.genome_length, np.float32)}), "Roam", "Go")
     _, few, many = (most_bytes(rollout, runs) for runs in (RUNS, RUNS, 2 * RUNS))  # what comes once comes first
     taken = (many - few) / RUNS
-    assert taken < bytes_for(graph.tasks[0]) < 2 * taken
+    assert 0.9 * taken < bytes_for(graph.tasks[0]) < 2 * taken
 
 
 def most_bytes(rollout: Rollout, runs: int) -> int:

@@ -149,6 +149,7 @@ def test_no_option_can_be_half_said() -> None:
     calls = [
         (path, node)
         for path in files
+        if "ArgumentParser" in path.read_text(encoding="utf-8")
         for node in ast.walk(tree(path))
         if isinstance(node, ast.Call) and getattr(node.func, "attr", "") == "ArgumentParser"
     ]

@@ -30,7 +30,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     assert graph
     write_bundle(folder / "b.bundle", Bundle(Policy(graph, {}), {}))
     (folder / "log.csv").write_text(LOG)
-    (folder / "readings").write_text('{"ball_bearing": 0.5, "feeler": [1, 1, 1]}\n' * 2000)
+    (folder / "readings").write_text('{"ball_bearing": 0.5, "feeler": [1, 1, 1]}\n' * 300)
     return folder
 
 

@@ -8,8 +8,7 @@ from typing import Any
 from mindrun.kinds.events.event import WITHIN_TICKS, Within
 from mindrun.kinds.registry import Argument as Parameter
 from mindrun.kinds.registry import arguments, find_kind, kinds
-from mindrun.kinds.things.about import OR, AboutThing
-from mindrun.kinds.things.thing import ROBOT, WITHIN
+from mindrun.kinds.things.thing import OR, ROBOT, WITHIN, AboutThing
 from mindrun.numbers.quantity import COORDINATE, SLOT, THING, Quantity, Reference
 
 from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed

@@ -12,7 +12,7 @@ from itertools import product
 from math import cos, hypot, inf, pi, sin
 from random import Random
 
-from mindrun.graph.beginning import meets_robot
+from mindrun.graph.tasks import meets_robot
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import Rectangle, ThingKind

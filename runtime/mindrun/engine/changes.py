@@ -8,14 +8,13 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Literal
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from mindrun.engine.engine import Engine
 from mindrun.engine.think import Thought, think
 from mindrun.errors import MindError, nearest
 from mindrun.graph.graph import Graph
-from mindrun.numbers.arrays import Reader, Readings
+from mindrun.numbers.arrays import Reader, Readings, Singles
 
 What = Literal["reading", "influence", "memory"]
 Changed = Mapping[What, Mapping[int, float]]  # the numbers that are others in one tick, by their places
@@ -120,7 +119,7 @@ class ChangedEngine(Engine):
         self._made = UNCHANGED
         self._virtual = tuple((place, self._replacing(place, read)) for place, read in self._virtual)
 
-    def tick_with(self, readings: ArrayLike, made: Changed | None) -> NDArray[np.float32]:
+    def tick_with(self, readings: ArrayLike, made: Changed | None) -> Singles:
         """Commands [actuators] for readings [graph.width] in a tick in which so much is changed."""
         self._made = made or UNCHANGED
         for number, memory in enumerate(self.graph.memories):
@@ -128,7 +127,7 @@ class ChangedEngine(Engine):
                 self._cells[number] = self._made["memory"][memory.start]
         return self.tick(readings)
 
-    def _filled(self, now: NDArray[np.float32]) -> NDArray[np.float32]:
+    def _filled(self, now: Singles) -> Singles:
         for row, value in self._made["reading"].items():
             now[row] = value
         return super()._filled(now)

@@ -16,7 +16,7 @@ from mindrun.kinds.functions.function import Stateful
 from mindrun.kinds.functions.procedure import used_file
 from mindrun.kinds.procedure_text import FILES, Sources, module_of
 from mindrun.kinds.sensors.sensor import Scene, directions
-from mindrun.numbers.arrays import Reader
+from mindrun.numbers.arrays import Reader, Singles
 
 
 def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> dict[str, str | bytes]:
@@ -35,7 +35,7 @@ def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> 
 def scene_of(graph: Graph) -> Scene:
     """The scene of a graph's sensors: all that they depend on beside their own arguments."""
     places = {memory.name: slice(memory.start, memory.start + 1) for memory in graph.memories}
-    places |= {sensor.name: slice(sensor.start, sensor.start + sensor.width) for sensor in graph.sensors}
+    places |= {sensor.name: sensor.place for sensor in graph.sensors}
     around = directions({sensor.name: sensor.kind for sensor in graph.sensors})
     return Scene(graph.tick, places, around, graph.skill_numbers)
 
@@ -76,7 +76,7 @@ class Engine:
                 skill.compute.reset()
         self._virtual = virtual_sensors(self.graph)
         self._tick = 0
-        self._before: NDArray[np.float32] | None = None
+        self._before: Singles | None = None
         self._cells = np.array([memory.kind.start for memory in self.graph.memories], np.float32)
         self.readings = np.zeros(self.graph.width, np.float32)
         self.influence = self._hierarchy.calm[0].copy()
@@ -95,7 +95,7 @@ class Engine:
         self.faults += thought.faults
         return np.where(thought.driven[:actuators], thought.command[:actuators], self._neutral)
 
-    def _filled(self, now: NDArray[np.float32]) -> NDArray[np.float32]:
+    def _filled(self, now: Singles) -> Singles:
         if now.shape != (self.graph.width,):
             raise ReadingsError(f"this mind has {self.graph.width} readings, not {now.shape}")
         now[self._places] = self._cells

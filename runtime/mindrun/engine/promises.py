@@ -6,18 +6,14 @@ sensed what came of it. What it `achieves` is judged in the first tick in which 
 before. What depends on a reading that is no number is not judged.
 """
 
-from functools import partial
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph.graph import Graph, Promise, Skill
 from mindrun.graph.skill_sets import reachable
-from mindrun.numbers.arrays import evaluate_rows
+from mindrun.numbers.arrays import Bools, Singles, columns, evaluate_rows
 
 NOT_JUDGED, HELD, BY_SKILL, BY_INFLUENCE = range(4)  # what became of a promise in a tick: both last are broken
-Singles = NDArray[np.float32]
 
 
 class PromiseWatcher:
@@ -36,7 +32,7 @@ class PromiseWatcher:
         self._before = [(False, False)] * len(self._skills)  # whether each acted, and against what it requires
 
     @property
-    def acting(self) -> NDArray[np.bool_]:
+    def acting(self) -> Bools:
         """True for each promise [promises] whose skill acts in the last tick so far."""
         acted = (acts for skill, (acts, _) in zip(self._skills, self._before, strict=True) for _ in skill.promises)
         return np.fromiter(acted, bool)
@@ -52,12 +48,12 @@ class PromiseWatcher:
             columns.append(self._judged(place, skill, readings, influence[:, self._numbers[skill.name]] > 0))
         return np.concatenate(columns, axis=1)
 
-    def _judged(self, place: int, skill: Skill, readings: Singles, acts: NDArray[np.bool_]) -> NDArray[np.int8]:
+    def _judged(self, place: int, skill: Skill, readings: Singles, acts: Bools) -> NDArray[np.int8]:
         found, (acted, was_unmet) = np.zeros((len(acts), len(skill.promises)), np.int8), self._before[place]
         if not len(acts):
             return found
         was = np.concatenate([[acted], acts[:-1]])
-        values = [evaluate_rows(each.when, partial(_column, readings), len(acts)) for each in skill.promises]
+        values = [evaluate_rows(each.when, columns(readings), len(acts)) for each in skill.promises]
         unmet = np.zeros(len(acts), bool)
         for each, value in zip(skill.promises, values, strict=True):
             unmet |= acts & (value == 0) & (each.word == "requires")
@@ -71,8 +67,3 @@ class PromiseWatcher:
             judged = np.where(value > 0, HELD, np.where(value == 0, broken, NOT_JUDGED))
             found[:, i] = np.where(due[each.word], judged, NOT_JUDGED)
         return found
-
-
-def _column(readings: Singles, word: str, operand: Any) -> Any:
-    """The value of a number or a reading in each row, float64 as in the engine."""
-    return readings[:, int(operand)].astype(np.float64) if word == "reading" else np.float64(operand)

@@ -16,7 +16,7 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.scopes import Scopes, influence_scopes
 from mindrun.graph.weights import reachable, weights_of
 from mindrun.kinds.procedure_text import Sources
-from mindrun.numbers.arrays import Compute
+from mindrun.numbers.arrays import Bools, Compute, Singles
 from mindrun.numbers.expression import evaluate
 
 _ZERO, _ONE = np.float32(0.0), np.float32(1.0)
@@ -57,7 +57,7 @@ class Hierarchy:
     """
 
     skills: tuple[ReadySkill, ...]
-    calm: NDArray[np.float32]
+    calm: Singles
     master: int
     commands: int
 
@@ -66,9 +66,9 @@ class Hierarchy:
 class Thought:
     """The result of thinking: influence [skills], command [commands] where `driven`, how many outputs were not sent."""
 
-    influence: NDArray[np.float32]
-    command: NDArray[np.float32]
-    driven: NDArray[np.bool_]
+    influence: Singles
+    command: Singles
+    driven: Bools
     faults: int
 
 
@@ -101,9 +101,7 @@ def _sent(edge: Edge, actuators: int, scopes: Scopes) -> ReadyEdge:
     return ReadyEdge(edge.to != "skill", place, edge.output, edge.value, edge.gate, cuts, counting)
 
 
-def think(
-    mind: Hierarchy, readings: NDArray[np.float32], replaced: Mapping[int, float] = MappingProxyType({})
-) -> Thought:
+def think(mind: Hierarchy, readings: Singles, replaced: Mapping[int, float] = MappingProxyType({})) -> Thought:
     """Equations 2 and 3 over the full vector of readings; call it where numpy's warnings are off.
 
     Influence that is `replaced`, by the index of its skill, is this, whatever all above it send.
@@ -134,14 +132,14 @@ def think(
     return _mean(influence[0], commands, influences, faults)
 
 
-def in_scopes(influence: NDArray[np.float32], value: float) -> NDArray[np.float32]:
+def in_scopes(influence: Singles, value: float) -> Singles:
     """Influence [scopes] of a skill that is `value` in the first scope: in the same ratios, or all `value` after 0."""
     before, now = influence.astype(np.float64), np.float64(np.float32(value))
     found = np.full(len(before), now) if before[0] == 0 else before * now / before[0]  # exact where nothing changes
     return found.astype(np.float32)
 
 
-def values(skill: ReadySkill, readings: NDArray[np.float32]) -> list[np.float32 | None]:
+def values(skill: ReadySkill, readings: Singles) -> list[np.float32 | None]:
     """The values [edges] that a skill sends, before the clamp; all NaN where one of its inputs is not finite.
 
     None where a gate is closed and nothing is sent. Of a skill that chooses, those of its influences are 0 and one 1.
@@ -150,18 +148,12 @@ def values(skill: ReadySkill, readings: NDArray[np.float32]) -> list[np.float32 
     if not np.isfinite(inputs).all():
         return [np.float32(np.nan)] * len(skill.edges)
     outputs = skill.compute(inputs)
-    found = [
-        gated(edge, edge.gate, outputs, readings) if edge.gate else value_of(edge, outputs, readings)
-        for edge in skill.edges
-    ]
-    return chosen(skill, found) if skill.chooses else found
+    found = [_value(edge, outputs, readings) for edge in skill.edges]
+    return _chosen(skill, found) if skill.chooses else found
 
 
-def chosen(skill: ReadySkill, found: list[np.float32 | None]) -> list[np.float32 | None]:
-    """The values with 1 for the influence that is greatest, of equals the first, and 0 for the others that are sent.
-
-    What is not sent, or not a number, is not chosen and stays so.
-    """
+def _chosen(skill: ReadySkill, found: list[np.float32 | None]) -> list[np.float32 | None]:
+    """The values with 1 for the influence that is greatest, of equals the first, and 0 for the others that are sent."""
     can_be = {
         place: value
         for place, (edge, value) in enumerate(zip(skill.edges, found, strict=True))
@@ -171,21 +163,15 @@ def chosen(skill: ReadySkill, found: list[np.float32 | None]) -> list[np.float32
     return [(_ONE if place == best else _ZERO) if place in can_be else value for place, value in enumerate(found)]
 
 
-def value_of(edge: ReadyEdge, outputs: NDArray[np.float32], readings: NDArray[np.float32]) -> np.float32:
-    """The value of an edge, whatever its gate says."""
+def _value(edge: ReadyEdge, outputs: Singles, readings: Singles) -> np.float32 | None:
+    """The value of an edge, None where its gate is closed and nothing is sent; NaN where the condition is no number."""
+    if gate := edge.gate:
+        holds = evaluate(gate.when, readings)
+        if holds == 0:
+            return None if gate.otherwise is None else np.float32(evaluate(gate.otherwise, readings))
+        if not holds > 0:
+            return np.float32(np.nan)
     return np.float32(evaluate(edge.value, readings)) if edge.output is None else outputs[edge.output]
-
-
-def gated(
-    edge: ReadyEdge, gate: Gate, outputs: NDArray[np.float32], readings: NDArray[np.float32]
-) -> np.float32 | None:
-    """The value of an edge with a gate, None where nothing is sent; NaN where the condition is not a number itself."""
-    holds = evaluate(gate.when, readings)
-    if holds > 0:
-        return value_of(edge, outputs, readings)
-    if holds == 0:
-        return None if gate.otherwise is None else np.float32(evaluate(gate.otherwise, readings))
-    return np.float32(np.nan)
 
 
 def clamped(value: np.float32) -> np.float32:
@@ -194,9 +180,7 @@ def clamped(value: np.float32) -> np.float32:
     return value if value < _ONE else _ONE
 
 
-def _mean(
-    influence: NDArray[np.float32], commands: NDArray[np.float32], influences: NDArray[np.float32], faults: int
-) -> Thought:
+def _mean(influence: Singles, commands: Singles, influences: Singles, faults: int) -> Thought:
     """Eq. 3. A mean that overflowed is a fault and drives nothing."""
     mean = commands / influences
     finite = np.isfinite(mean)

@@ -208,10 +208,7 @@ def decode_wiring(data: object, graph: Graph) -> Wiring:
 
 
 def migrated(graph: Any) -> Any:
-    """The data of a graph of an older version as that of today: what its lessons had no word for has its default.
-
-    Data that is no graph stays as it is: decoding it says what is wrong.
-    """
+    """The data of a graph of an older version as that of today: what its lessons had no word for has its default."""
     try:
         return graph | {"lessons": [_whole_lesson(lesson) for lesson in graph["lessons"]]}
     except (TypeError, LookupError):

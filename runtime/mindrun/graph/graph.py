@@ -16,7 +16,7 @@ from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.kinds.things.thing import ThingKind
 from mindrun.numbers.expression import Program as Program
-from mindrun.numbers.quantity import ANGLE, COORDINATE, RATIO, Place, Quantity
+from mindrun.numbers.quantity import ANGLE, COORDINATE, Place, Quantity, Ratio
 from mindrun.numbers.short_repr import ShortRepr
 
 Receiver = Literal["skill", "actuator", "memory"]  # of what a skill sends
@@ -33,6 +33,11 @@ class Sensor:
     kind: SensorKind
     start: int
     width: int
+
+    @property
+    def place(self) -> slice:
+        """The place of its readings in that vector."""
+        return slice(self.start, self.start + self.width)
 
 
 @dataclass(frozen=True, slots=True)
@@ -219,7 +224,7 @@ class Failure:
     """An actuator that fails in each tick with the probability `rate`, and is neutral from then on."""
 
     actuator: str
-    rate: Annotated[float, RATIO]
+    rate: Ratio
 
 
 def varied_quantity(kind: Any, argument: str) -> Quantity | None:
@@ -357,9 +362,5 @@ class Graph(ShortRepr):
 
     def named(self, noun: Receiver, index: int) -> str:
         """The name of the "skill", "actuator" or "memory" that an edge goes to by its index."""
-        match noun:
-            case "skill":
-                return self.skills[index].name
-            case "actuator":
-                return self.actuators[index].name
-        return self.memories[index].name
+        parts: tuple[Skill | Actuator | Memory, ...] = self.skills if noun == "skill" else self.memories
+        return (self.actuators if noun == "actuator" else parts)[index].name

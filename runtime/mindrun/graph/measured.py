@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 from mindrun.graph.graph import Graph, Sensor, Skill, Task
 from mindrun.graph.named_readings import physical
 from mindrun.graph.skill_sets import reachable
+from mindrun.numbers.arrays import Bools
 from mindrun.numbers.expression import leaves
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    pass
 
 
 def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> tuple[list[Sensor], list[Sensor]]:
@@ -44,13 +44,13 @@ def measured_on_robot(graph: Graph, wired: Collection[str]) -> list[Sensor]:
     return [sensor for sensor, each in sources if missing.isdisjoint(source.name for source in each)]
 
 
-def rows_of(graph: Graph, sensors: Iterable[Sensor]) -> NDArray[np.bool_]:
+def rows_of(graph: Graph, sensors: Iterable[Sensor]) -> Bools:
     """A mask [graph.width] of the readings of these sensors, and of memories, which are always known."""
     import numpy as np
 
     found = np.zeros(graph.width, bool)
     for each in sensors:
-        found[each.start : each.start + each.width] = True
+        found[each.place] = True
     found[[memory.start for memory in graph.memories]] = True
     return found
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 from mindrun.errors import ReadingsError, nearest
 from mindrun.graph.graph import Graph, Sensor
 from mindrun.kinds.sensors.sensor import SensorKind
+from mindrun.numbers.arrays import Singles
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    pass
 
 
 def physical(graph: Graph) -> dict[str, Sensor]:
@@ -21,22 +21,17 @@ def physical(graph: Graph) -> dict[str, Sensor]:
 
 def reading_names(graph: Graph) -> list[str]:
     """The name of every reading: its sensor's or memory's, with a number from 1 where there are several."""
-    wide = (
-        f"{sensor.name} {place + 1}" if sensor.width > 1 else sensor.name
-        for sensor in graph.sensors
-        for place in range(sensor.width)
-    )
-    return [*wide, *(memory.name for memory in graph.memories)]
+    several = {sensor.name for sensor in graph.sensors if sensor.width > 1}
+    return [f"{name} {number + 1}" if name in several else name for name, number in graph.readings]
 
 
 def vector(
     graph: Graph, given: Mapping[str, Any], fill: float | None = None, needed: Container[str] | None = None
-) -> NDArray[np.float32]:
+) -> Singles:
     """Readings [graph.width] from `{"proximity": [1, 0.5], "battery": 0.4}`; a missing sensor reads `fill`.
 
     One that is not `needed`, since nobody reads it, may be missing anyway: it is NaN, as a reading that failed. So may
-    an order: it is neutral. Raises
-    ReadingsError for anything else that is not a number in 0..1.
+    an order: it is neutral. ReadingsError for anything else that is not a number in 0..1.
     """
     import numpy as np
 
@@ -46,17 +41,15 @@ def vector(
             raise ReadingsError(_unknown(graph, name))
     readings = np.zeros(graph.width, np.float32)
     for name, sensor in sensors.items():
-        if name not in given and needed is not None and name not in needed:
-            readings[sensor.start : sensor.start + sensor.width] = np.nan
-            continue
-        if name not in given and fill is None and sensor.kind.is_order:
-            kind: Any = sensor.kind
-            readings[sensor.start : sensor.start + sensor.width] = kind.readings(kind.neutral)
-            continue
-        if name not in given and fill is None:
+        kind: Any = sensor.kind
+        if name in given or (fill is not None and (needed is None or name in needed)):
+            readings[sensor.place] = _checked(sensor, given.get(name, [fill] * sensor.width))
+        elif needed is not None and name not in needed:
+            readings[sensor.place] = np.nan
+        elif kind.is_order:
+            readings[sensor.place] = kind.readings(kind.neutral)
+        else:
             raise ReadingsError(f"there is no reading of sensor {name} (--fill 0.5 would set it)")
-        values = given.get(name, [fill] * sensor.width)
-        readings[sensor.start : sensor.start + sensor.width] = _checked(sensor, values)
     return readings
 
 

@@ -4,19 +4,19 @@ import json
 import re
 import zlib
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Annotated, Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.errors import MindError
 from mindrun.files.strict_json import are_names, is_whole, parsed
-from mindrun.graph.codec import decode
+from mindrun.graph.codec import decode, encode
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.named_readings import physical
 from mindrun.graph.validate import MAX_TICK_SECONDS, MIN_TICK_SECONDS
+from mindrun.numbers.arrays import Doubles
 from mindrun.numbers.quantity import NUMBER, SECONDS, Quantity
 
 FORMAT = "mind recording 3"
@@ -74,7 +74,7 @@ class RecordedWorld:
     begin: Annotated[tuple[float | None, ...], NUMBER]
 
     @classmethod
-    def of(cls, task: Task, seed: int, boxes: NDArray[np.float64], begin: Sequence[float]) -> Self:
+    def of(cls, task: Task, seed: int, boxes: Doubles, begin: Sequence[float]) -> Self:
         """The world of a run of a task, with its obstacles [boxes, 4] and what `begin` has."""
         things = (len(begin) - POSE_COLUMNS) // THING_COLUMNS
         there = tuple(float(number) if abs(number) < NUMBER.high else None for number in begin)
@@ -139,14 +139,14 @@ class About:
 
 
 NAME_LISTS = ("sensors", "actuators", "skills")
-SAID_FIELDS = ("bundle", "master", "tick", *NAME_LISTS, "readings")
 
 
 def line_of(about: About) -> bytes:
     """The first line; RecordingError where it would be longer than one that is read."""
-    said = {"format": FORMAT, **{name: getattr(about, name) for name in SAID_FIELDS}}
-    world = {"world": asdict(about.world)} if about.world else {}
-    line = _sealed(json.dumps(said | world, allow_nan=False).encode()[:-1] + CHECKSUM_FIELD)
+    said = {"format": FORMAT, **encode(about)}
+    if about.world is None:
+        del said["world"]
+    line = _sealed(json.dumps(said, allow_nan=False).encode()[:-1] + CHECKSUM_FIELD)
     if len(line) > MAX_HEADER_BYTES:
         raise RecordingError("this world has too many things and obstacles to be recorded")
     return line
@@ -160,7 +160,7 @@ def about_of_line(line: bytes, path: Path) -> About:
             raise ValueError(_foreign(plain))
         if line != _sealed(line):
             raise RecordingError(f"{path} is damaged in its first line")
-        found = _typed({name: plain.get(name) for name in SAID_FIELDS})
+        found = _typed({each.name: plain.get(each.name) for each in fields(About)})
         return replace(found, world=_world(plain["world"])) if "world" in plain else found
     except ValueError as error:
         raise RecordingError(f"{path} is no recording of this mindrun: {error}") from error

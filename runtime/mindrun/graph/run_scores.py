@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph.graph import Reward
+from mindrun.numbers.arrays import Doubles
 from mindrun.numbers.short_repr import ShortRepr
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -38,7 +37,7 @@ class Scores(ShortRepr):
     faults: NDArray[np.int64]
 
 
-def score_of(paid: Floats) -> Any:
+def score_of(paid: Doubles) -> Any:
     """The sums [...] of what all lines have paid [..., lines]."""
     found = np.zeros(paid.shape[:-1])
     for line in range(paid.shape[-1]):
@@ -46,7 +45,7 @@ def score_of(paid: Floats) -> Any:
     return found
 
 
-def paid_by_text(rewards: Sequence[Reward], paid: Floats) -> dict[str, Any]:
+def paid_by_text(rewards: Sequence[Reward], paid: Doubles) -> dict[str, Any]:
     """The sums [...] of what reward lines of one text have paid, by text; `paid` [..., lines] is that of each line."""
     found: dict[str, Any] = {}
     for line, reward in enumerate(rewards):

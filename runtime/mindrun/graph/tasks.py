@@ -11,6 +11,7 @@ from mindrun.graph.skill_sets import reachable
 from mindrun.kinds.things.thing import MOVES, STAYS
 from mindrun.numbers.expression import leaves
 
+HALF_DIAGONAL = 0.7072  # of a square with side 1, and a little more
 ROUGH = ("noise", "lost", "slip")  # arguments of sensors and actuators of which something is drawn in every tick
 # One more with each change after which a run of the same seed can be another: how bodies move, what is solid, how a
 # world begins, what sensors measure. Weights that were taught before are then said to be taught elsewhere.
@@ -31,11 +32,7 @@ def installed_version(package: str) -> str:
 
 
 def default_task(graph: Graph) -> tuple[Task, str]:
-    """The task to run where none is named, and a sentence why it is this one; "" where that goes without saying.
-
-    It is the one on which the master is taught; else, where there are lessons and none is on it, the one of its name;
-    else the one on which a skill below it is taught; else the first. The mind has a task.
-    """
+    """The task to run where none is named, and a sentence why it is this one; "" where that goes without saying."""
     tasks = {task.name: task for task in graph.tasks}
     taught = {lesson.master: lesson.task for lesson in reversed(graph.lessons)}  # the first lesson under each
     if graph.master in taught:
@@ -68,10 +65,7 @@ def goals(graph: Graph, task: Task) -> frozenset[str]:
 
 
 def unfit_thing(things: Sequence[Any], names: Collection[str]) -> Any:
-    """The thing for which a sensor cannot be about all of these names in a world of `things`; None where it can.
-
-    It is an obstacle of one of them, or one that is said between those which have them.
-    """
+    """The thing for which a sensor cannot be about all of these names in a world of `things`; None where it can."""
     if len(names) == 1:
         return None
     loose = [thing for thing in things if not (thing.kind and thing.kind.is_obstacle)]
@@ -90,10 +84,7 @@ def varied_kind(graph: Graph, task: Task, variation: Variation) -> Any:
 
 
 def is_one_world(graph: Graph, task: Task, master: str) -> bool:
-    """True if every run of a task under a master is the same, as far as anybody can know.
-
-    Nobody knows what an environment of somebody else's draws, or a procedure.
-    """
+    """True if every run of a task under a master is the same, as far as anybody can know."""
     if task.scene.environment or task.start.facing is None or any(failure.rate > 0 for failure in task.fails):
         return False
     if task.scene.is_bounded and task.start.at is None:
@@ -145,3 +136,19 @@ def _draws_in_ticks(graph: Graph, task: Task, master: str) -> bool:
     kinds: list[object] = [*measured]
     kinds += [actuator.kind for actuator in graph.actuators]
     return any(getattr(kind, argument, 0.0) for kind in kinds for argument in ROUGH)
+
+
+def meets_robot(
+    is_area: bool, is_round: bool, is_goal: bool, size: float, dx: float, dy: float, radius: float, reach: float
+) -> bool:
+    """True if a thing (dx, dy) from the robot's middle overlaps the robot, or is a goal that it has reached already.
+
+    On what lies on the floor, an area, the robot may begin, unless that is a goal. `radius` is that of the circle
+    around the robot, `reach` how far from its middle the claw's place reaches, whichever way it faces.
+    """
+    if is_area:
+        return is_goal and max(abs(dx), abs(dy)) <= size / 2
+    gap = radius + (size / 2 if is_round else size * HALF_DIAGONAL)
+    if is_goal:
+        gap = max(gap, reach + size / 2)
+    return dx * dx + dy * dy < gap * gap

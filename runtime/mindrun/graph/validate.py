@@ -3,6 +3,7 @@
 import re
 from collections.abc import Container, Iterator, Sequence
 from graphlib import CycleError, TopologicalSorter
+from itertools import chain
 from math import prod
 
 from mindrun.graph.draws import MAX_VALUES, Draw, intervals_of
@@ -37,7 +38,7 @@ def _flaws(graph: Graph) -> Iterator[str]:
     for task in graph.tasks:
         if any(unfit_thing(task.things, sensor.kind.things) for sensor in graph.sensors):
             yield f"task {task.name} has things apart that a sensor is about"
-        flaws = (*_task_flaws(task, width, len(graph.actuators)), *_variation_flaws(graph, task))
+        flaws = chain(_task_flaws(task, width, len(graph.actuators)), _variation_flaws(graph, task))
         yield from (f"task {task.name} {what}" for what in flaws)
     skills, tasks = {skill.name for skill in graph.skills}, {task.name: task.events for task in graph.tasks}
     for lesson in graph.lessons:
@@ -170,41 +171,30 @@ def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
         yield "names a thing that is not there"
     yield from _world_flaws(task)
     yield from _draw_flaws(task)
-    events, readings = range(len(task.events)), range(width)
-    rewarded = [reward.on for reward in task.rewards if reward.on is not None]
-    ending = [end.event for end in task.ends if end.event is not None]
-    if not all(event in events for event in (*ending, *task.counts, *rewarded)):
+    happens = {*(end.event for end in task.ends), *task.counts, *(reward.on for reward in task.rewards)}
+    if not happens <= {None, *range(len(task.events))}:
         yield "names an event that is not there"
     others = [event.within.of for event in task.events if event.within]
     if any(other.within or other.is_of_success or other not in task.events for other in others):
         yield "has an event that comes after one that is not there"
-    yield from _end_flaws(task, width, actuators)
-    for reward in task.rewards:
-        known = readings, len(task.measures), reward.each is not None, actuators, len(task.draws)
-        if not all(_computes(program, *known) for program in reward.programs):
-            yield "has a reward that cannot be computed"
-        if reward.when is not None and not is_condition(reward.when):
-            yield "has a condition that cannot be computed"
-        if reward.each and not (reward.each[0] >= 0 and 0 < reward.each[1] <= width - reward.each[0]):
-            yield "rewards readings that are not there"
-
-
-def _end_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
-    """An end is an event or a condition; a success comes of none that it makes itself."""
+    known = range(width), len(task.measures), actuators, len(task.draws)
     in_the_way = {"", *(thing.name for thing in task.things if thing.kind.is_obstacle)}
     for end in task.ends:
         if end.opens not in in_the_way or (end.opens and end.succeeds):
             yield "opens what cannot be opened"
         if (end.event is None) == (end.when is None) or end.times < 1:
             yield "has an end that never comes"
-        if end.when is not None and not (
-            is_condition(end.when)
-            and _computes(end.when, range(width), len(task.measures), False, actuators, len(task.draws))
-        ):
+        if end.when is not None and not (is_condition(end.when) and _computes(end.when, *known)):
             yield "has an end that cannot be computed"
-        event = next((event for index, event in enumerate(task.events) if index == end.event), None)
-        if event is not None and event.is_of_success:
+        if end.event is not None and task.events[end.event].is_of_success:
             yield "ends on its own success"
+    for reward in task.rewards:
+        if not all(_computes(program, *known, reward.each is not None) for program in reward.programs):
+            yield "has a reward that cannot be computed"
+        if reward.when is not None and not is_condition(reward.when):
+            yield "has a condition that cannot be computed"
+        if reward.each and not (reward.each[0] >= 0 and 0 < reward.each[1] <= width - reward.each[0]):
+            yield "rewards readings that are not there"
 
 
 def _draw_flaws(task: Task) -> Iterator[str]:
@@ -267,17 +257,14 @@ def _variation_flaws(graph: Graph, task: Task) -> Iterator[str]:
 
 
 def _computes(
-    program: Program, readings: Container[int], measures: int = 0, each: bool = False, commands: int = 0, draws: int = 0
+    program: Program, readings: Container[int], measures: int = 0, commands: int = 0, draws: int = 0, each: bool = False
 ) -> bool:
     """True if a program has a value, and uses only these readings, measures, commands and, in a loop, the reading."""
-    words = {*OPERATORS, "negate", "number", "reading", "measure", "command", "drawn"} - {*CHOICES}
-    words |= {"each"} if each else set()
+    known = {"reading": readings, "measure": range(measures), "command": range(commands), "drawn": range(draws)}
+    words = {*OPERATORS, "negate", "number", *known} - {*CHOICES} | ({"each"} if each else set())
     return (
         is_valid_program(program)
         and {word for word, _ in program} <= words
         and all(isinstance(operand, int) for word, operand in program if word != "number")
-        and all(index in readings for index in leaves(program, "reading"))
-        and all(index in range(measures) for index in leaves(program, "measure"))
-        and all(index in range(commands) for index in leaves(program, "command"))
-        and all(index in range(draws) for index in leaves(program, "drawn"))
+        and all(index in places for leaf, places in known.items() for index in leaves(program, leaf))
     )

@@ -1,6 +1,6 @@
 """A skill's trained numbers: one flat float32 vector, the genome."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -14,11 +14,12 @@ from mindrun.graph.skill_sets import owner_of as owner_of
 from mindrun.graph.skill_sets import owners as owners
 from mindrun.graph.skill_sets import reachable as reachable
 from mindrun.numbers.arrays import Weights as Weights
+from mindrun.numbers.arrays import WeightsBySkill
 
 NO_WEIGHTS = np.zeros(0, np.float32)
 
 
-def weights_of(skill: Skill, weights: Mapping[str, Weights]) -> Weights:
+def weights_of(skill: Skill, weights: WeightsBySkill) -> Weights:
     """A skill's weights, checked: as many as its function has, float32, finite; else WeightsError."""
     if genes(skill) == 0:
         return NO_WEIGHTS

@@ -14,7 +14,7 @@ from mindrun.graph.measured import with_sources
 from mindrun.graph.named_readings import physical
 from mindrun.graph.skill_sets import reachable
 from mindrun.kinds.registry import left_out
-from mindrun.numbers.quantity import NUMBER, RATIO, Quantity, Reference
+from mindrun.numbers.quantity import Number, Quantity, Ratio, Reference
 
 VALUES = Quantity("a number of values", {"": 1.0}, low=1, high=15, whole=True)
 HERTZ = Quantity("a rate", {"Hz": 1.0}, low=0.01, high=1000)
@@ -41,16 +41,16 @@ class SensorWire:
 
     sensor: str
     driver: SensorDriver
-    low: Annotated[float, NUMBER]
-    high: Annotated[float, NUMBER]
+    low: Number
+    high: Number
     median: Annotated[int, VALUES] = 1
     rate: Annotated[float, HERTZ] = 20.0
     max_age: Annotated[float, TIME] = 0.25
     on_fault: Annotated[OnFault, ON_FAULT] = "neutral"
     hold: Annotated[float, TIME] = 0.5
-    blank: Annotated[float, RATIO] = 1.0
-    dead_zone: Annotated[float, RATIO] = 0.0
-    rest: Annotated[float, RATIO] = 0.0
+    blank: Ratio = 1.0
+    dead_zone: Ratio = 0.0
+    rest: Ratio = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,11 +66,11 @@ class ActuatorWire:
     actuator: str
     driver: ActuatorDriver
     trim: Annotated[float, TRIM] = 0.0
-    low: Annotated[float, RATIO] = 0.0
-    high: Annotated[float, RATIO] = 1.0
+    low: Ratio = 0.0
+    high: Ratio = 1.0
     slew: Annotated[float, A_SECOND] = 0.0
     reversed: Annotated[bool, SWITCH] = False
-    least: Annotated[float, RATIO] = left_out(0.0)
+    least: Ratio = left_out(0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,10 +88,7 @@ class Wiring:
 
 
 def reading(wire: SensorWire, raw: float | None, circular: bool | None = False) -> float:
-    """The reading of a raw value: `blank` for None; NaN, which is a fault, for what is not finite.
-
-    What is beyond `low` and `high` reads as that end, but goes round where it is a direction, which is `circular`.
-    """
+    """The reading of a raw value: `blank` for None; NaN, which is a fault, for what is not finite."""
     if raw is None:
         return wire.blank
     share = (raw - wire.low) / (wire.high - wire.low) if isfinite(raw) else nan

@@ -34,11 +34,7 @@ class OfEnvironment:
     """A sensor or an actuator: it may be a number of an environment's observation or action."""
 
     __slots__ = ()
-
-    @property
-    def slot(self) -> Slot | None:
-        """The number that it is; None outside of environments."""
-        return None
+    slot: Slot | None = None  # the number that it is; None outside of environments
 
     @property
     def is_outside(self) -> bool:

@@ -6,17 +6,17 @@ from math import sqrt
 from typing import Annotated
 
 from mindrun.kinds.registry import kind, left_out
-from mindrun.numbers.quantity import COUNT, GENERATIONS, RATIO, Quantity
+from mindrun.numbers.quantity import GENERATIONS, Count, Quantity, Ratio
 
-OCTAVES = Quantity("a whole number up to 8", {"": 1.0}, low=0, high=8, whole=True)
-SPREAD = Quantity("a number above zero", {"": 1.0}, low=1e-6, high=1000.0)
-PATIENCE_GENERATIONS = replace(GENERATIONS, low=0)
-RUNGS = Quantity("a whole number up to 16", {"": 1.0}, low=0, high=16, whole=True)
-SHARE = Quantity("a share above 0 up to 1", {"": 1.0, "%": 0.01}, low=0.001, high=1.0)
-FOUNDERS = Quantity("a whole number", {"": 1.0}, low=0, high=100_000, whole=True)
+Octaves = Annotated[int, Quantity("a whole number up to 8", {"": 1.0}, low=0, high=8, whole=True)]
+Spread = Annotated[float, Quantity("a number above zero", {"": 1.0}, low=1e-6, high=1000.0)]
+Patience = Annotated[int, replace(GENERATIONS, low=0)]
+Rungs = Annotated[int, Quantity("a whole number up to 16", {"": 1.0}, low=0, high=16, whole=True)]
+Share = Annotated[float, Quantity("a share above 0 up to 1", {"": 1.0, "%": 0.01}, low=0.001, high=1.0)]
+Founders = Annotated[int, Quantity("a whole number", {"": 1.0}, low=0, high=100_000, whole=True)]
 FEW_CHILDREN = 0.1  # of a population that is bred anew
 NEAR_WEIGHT = 0.01  # so near to another a weight does as that does
-POPULATION = Quantity("a whole number of at least 4", {"": 1.0}, low=4, high=100_000, whole=True)
+Population = Annotated[int, Quantity("a whole number of at least 4", {"": 1.0}, low=4, high=100_000, whole=True)]
 
 
 @kind("curriculum", "genetic")
@@ -38,25 +38,22 @@ class Genetic:
     A lesson may say any of these for itself.
     """
 
-    population: Annotated[int, POPULATION] = 100
-    attempts: Annotated[int, COUNT] = 1
-    layouts: Annotated[int, COUNT] = 2
-    elite: Annotated[float, RATIO] = 0.1
-    mutation: Annotated[float, SPREAD] = 0.5
-    mutated: Annotated[float, RATIO] = 0.1
-    octaves: Annotated[int, OCTAVES] = 0
-    patience: Annotated[int, PATIENCE_GENERATIONS] = 0
-    founders: Annotated[int, FOUNDERS] = 0
-    rungs: Annotated[int, RUNGS] = 0
-    short: Annotated[float, SHARE] = 1.0
-    keeps: Annotated[float, RATIO] = 0.0
-    lowest: Annotated[float, SHARE] = left_out(1.0)
+    population: Population = 100
+    attempts: Count = 1
+    layouts: Count = 2
+    elite: Ratio = 0.1
+    mutation: Spread = 0.5
+    mutated: Ratio = 0.1
+    octaves: Octaves = 0
+    patience: Patience = 0
+    founders: Founders = 0
+    rungs: Rungs = 0
+    short: Share = 1.0
+    keeps: Ratio = 0.0
+    lowest: Share = left_out(1.0)
 
     def standstill(self, weights: int, generations: int) -> str:
-        """A sentence on why so many generations find nothing beyond the first genomes; empty if they may.
-
-        `weights` is how many a genome has.
-        """
+        """A sentence on why so many generations find nothing beyond the first genomes; empty if they may."""
         children = self.population - min(max(1, round(self.elite * self.population)), self.population - 1)
         bred = children * (generations - 1)
         if not bred:
@@ -79,9 +76,9 @@ class Restarting(Genetic):
     the best is kept.
     """
 
-    attempts: Annotated[int, COUNT] = 4
-    octaves: Annotated[int, OCTAVES] = 2
-    patience: Annotated[int, PATIENCE_GENERATIONS] = 40
+    attempts: Count = 4
+    octaves: Octaves = 2
+    patience: Patience = 40
 
 
 @kind("curriculum", "evolution_strategy")
@@ -94,16 +91,16 @@ class EvolutionStrategy:
     random genomes. `attempts`, `patience`, `rungs`, `short`, `keeps` and `lowest` are those of `genetic`.
     """
 
-    population: Annotated[int, POPULATION] = 50
-    attempts: Annotated[int, COUNT] = 1
-    layouts: Annotated[int, COUNT] = 2
-    mutation: Annotated[float, SPREAD] = 0.2
-    patience: Annotated[int, PATIENCE_GENERATIONS] = 0
-    founders: Annotated[int, FOUNDERS] = 0
-    rungs: Annotated[int, RUNGS] = 0
-    short: Annotated[float, SHARE] = 1.0
-    keeps: Annotated[float, RATIO] = 0.0
-    lowest: Annotated[float, SHARE] = left_out(1.0)
+    population: Population = 50
+    attempts: Count = 1
+    layouts: Count = 2
+    mutation: Spread = 0.2
+    patience: Patience = 0
+    founders: Founders = 0
+    rungs: Rungs = 0
+    short: Share = 1.0
+    keeps: Ratio = 0.0
+    lowest: Share = left_out(1.0)
 
     def standstill(self, weights: int, generations: int) -> str:
         """A sentence on why so many generations come nowhere; empty if they may."""

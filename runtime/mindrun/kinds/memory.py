@@ -3,7 +3,7 @@
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.numbers.quantity import DECAY, RATIO
+from mindrun.numbers.quantity import DECAY, Ratio
 
 
 @kind("memory", "cell")
@@ -11,4 +11,4 @@ class Cell:
     """One number: decay·cell + (1 − decay)·command where a skill drives it, decay·cell where none has influence."""
 
     decay: Annotated[float, DECAY]
-    start: Annotated[float, RATIO] = 0.0
+    start: Ratio = 0.0

@@ -15,10 +15,10 @@ from warnings import catch_warnings
 from weakref import finalize
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.errors import ProcedureError, system_errors_as
 from mindrun.kinds.procedure_text import FILES, Sources, examine, file_of, module_of
+from mindrun.numbers.arrays import Singles
 from mindrun.numbers.given_numbers import number, values
 
 
@@ -34,7 +34,7 @@ class RunningProcedure:
         if self.was_called:
             self.function, self.was_called = load(self.calls, self.sources), False
 
-    def __call__(self, inputs: NDArray[np.float32]) -> NDArray[np.float32]:
+    def __call__(self, inputs: Singles) -> Singles:
         """The function's outputs [outputs] for inputs [inputs], before the clamp."""
         self.was_called = True
         return call(self.calls, self.function, self.outputs, inputs)
@@ -88,7 +88,7 @@ def _code(source: str, path: str) -> CodeType:
         return compile(source, path, "exec")
 
 
-def call(calls: str, function: Callable[..., Any], outputs: int, inputs: NDArray[np.float32]) -> NDArray[np.float32]:
+def call(calls: str, function: Callable[..., Any], outputs: int, inputs: Singles) -> Singles:
     """The function's outputs for float32 inputs; one without outputs is not called."""
     if outputs == 0:
         return np.zeros(0, np.float32)

@@ -46,10 +46,7 @@ def file_of(from_: str) -> str:
 
 @lru_cache(16)
 def examine(from_: str, source: str, has_files: bool = False) -> FunctionSignature | None:
-    """The function's signature, None where only running could tell; ProcedureError where it can be no procedure.
-
-    With `has_files` it may read files.
-    """
+    """The function's signature, None where only running could tell; ProcedureError where it can be no procedure."""
     try:
         return _examined(from_, source, has_files)
     except RecursionError:

@@ -1,6 +1,6 @@
 """The types of arrays that kinds, engine and learning exchange; the operators of expressions on arrays."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from operator import add, mul, neg, sub, truediv
 from typing import Any
 
@@ -9,11 +9,15 @@ from numpy.typing import NDArray
 
 from mindrun.numbers.expression import Program, fold
 
-Readings = NDArray[np.float32]
+Singles = NDArray[np.float32]
+Doubles = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+Readings = Singles
 Reader = Callable[[int, Readings, Readings | None], Readings | np.float32]  # the tick's number, readings now and before
 Weights = NDArray[np.float32]  # of one skill: [genes]
+WeightsBySkill = Mapping[str, Weights]
 Layers = tuple[tuple[int, int], ...]  # of a network: (values in, values out) of each
-Compute = Callable[[NDArray[np.float32]], NDArray[np.float32]]  # a skill's inputs to its outputs
+Compute = Callable[[Singles], Singles]  # a skill's inputs to its outputs
 Leaf = Callable[[str, Any], Any]  # the word and the operand of a leaf of an expression to its values [rows], or to one
 Frame = NDArray[np.uint8]  # of a camera: [row, column, blue green red]
 
@@ -46,6 +50,11 @@ OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
     "when": _when,
     "otherwise": lambda value, other: np.where(value == np.inf, other, value)[()],
 }  # fmt: skip
+
+
+def columns(readings: Readings) -> Leaf:
+    """The leaves of expressions over readings [rows, width], float64 as in the engine."""
+    return lambda word, x: readings[:, int(x)].astype(np.float64) if word == "reading" else np.float64(x)
 
 
 def evaluate_rows(program: Program, leaf: Leaf, rows: int) -> NDArray[np.float64]:

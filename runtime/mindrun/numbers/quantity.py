@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from math import inf, pi
-from typing import Literal
+from typing import Annotated, Literal
 
 Rate = Literal["", "added", "kept"]
 
@@ -97,3 +97,21 @@ SERVO = Reference("servo")
 EXPRESSION = Reference("expression")
 FUNCTION = Reference("Python function")
 SLOT = Reference("name of a part of an observation or an action")
+
+# Types of arguments, as fields of many kinds have them.
+Ratio = Annotated[float, RATIO]
+ThingName = Annotated[str, THING]
+Ticks = Annotated[int, TICKS]
+Count = Annotated[int, COUNT]
+Positive = Annotated[float, POSITIVE]
+Lengths = Annotated[Span, LENGTH]
+Places = Annotated[tuple[Place, ...], COORDINATE]
+SensorName = Annotated[str, SENSOR]
+ServoName = Annotated[str, SERVO]
+PartName = Annotated[str, SLOT]
+Indices = Annotated[tuple[int, ...], INDEX]
+Length = Annotated[float, LENGTH]
+Range = Annotated[Span, NUMBER]
+Angles = Annotated[tuple[float, ...], ANGLE]
+Number = Annotated[float, NUMBER]
+Angle = Annotated[float, ANGLE]

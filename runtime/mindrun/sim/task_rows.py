@@ -313,7 +313,7 @@ def world_row(
     number, _, turns = hash_numbers(task)
     start_x, start_y = begin.at or (0.0, 0.0)
     half_x, half_y = (side / 2 for side in scene.sides)
-    battery = next((s.kind.battery for s in graph.sensors if s.kind.battery), Battery().battery)
+    battery = next((s.kind.battery for s in graph.sensors if s.kind.battery), Battery())
     powered = any(event.is_of_battery for event in task.events) or any(s.kind.battery for s in used)
     held = [thing.kind.largest for thing in task.things if thing.kind.can_be_held]
     # How far the rays reach, or the item in the claw.

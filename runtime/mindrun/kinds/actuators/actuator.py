@@ -8,18 +8,17 @@ from mindrun.kinds.bodies.body import BodyKind, Drive, Point
 from mindrun.kinds.environment import OfEnvironment, Slot
 from mindrun.kinds.registry import base, kind, left_out
 from mindrun.numbers.quantity import (
-    ANGLE,
-    INDEX,
-    LENGTH,
-    NUMBER,
-    RATIO,
-    SLOT,
-    TICKS,
     UNSAID,
+    Angle,
+    Indices,
+    Length,
+    PartName,
     Place,
     Quantity,
+    Range,
+    Ratio,
     Reference,
-    Span,
+    Ticks,
 )
 from mindrun.numbers.trigonometry import cosine, sine
 
@@ -27,6 +26,7 @@ Side = Literal["left", "right"]
 Row = Mapping[str, float]  # columns of the lanes' table of actuators
 
 THRUST = Quantity("a force", {"": 1.0}, low=-1e6, high=1e6)
+Thrust = Annotated[float, THRUST]
 STOPPED_COMMAND = 0.5  # command, at which what drives does not push
 
 
@@ -48,6 +48,8 @@ class ActuatorKind(OfEnvironment):
     carries = False  # whether a sensor can sit on it and turn with it
     is_light = False  # whether it shines with its command
     reach: float | None = None  # ahead of the body, within which it takes items, in world units; None where none
+    mounted: Side | None = None  # the side of the body that it is on, where that says what it does
+    acts_at_rest = False  # whether its neutral command does something in the world
 
     @property
     def moves_body(self) -> bool:
@@ -55,19 +57,9 @@ class ActuatorKind(OfEnvironment):
         return self.drive is not None
 
     @property
-    def mounted(self) -> Side | None:
-        """The side of the body that it is on, where that says what it does."""
-        return None
-
-    @property
     def can_hold(self) -> bool:
         """True if it can close around an item."""
         return self.reach is not None
-
-    @property
-    def acts_at_rest(self) -> bool:
-        """True if its neutral command does something in the world."""
-        return False
 
     @property
     def zero(self) -> float:
@@ -105,12 +97,10 @@ class Pushing(ActuatorKind):
         return 1.0, 0.0
 
     @property
-    def acts_at_rest(self) -> bool:
-        """True if it pushes at its neutral command, or may with its noise."""
+    def acts_at_rest(self) -> bool:  # type: ignore[override]
         return (self.neutral != STOPPED_COMMAND or self.noise > 0) and self.thrust != 0.0
 
     def row(self, body: BodyKind) -> Row:
-        """The columns of what pushes: thrust, direction, lever arm, side, noise and slip."""
         (x, y), (ahead, aside) = self.place(body), self.direction
         return {
             "thrust": self.thrust, "ahead": ahead, "aside": aside, "arm": x * aside - y * ahead, "is_right": y < 0,
@@ -128,7 +118,6 @@ class Rolling(Pushing):
     varying = (*Pushing.varying, "starts")
 
     def row(self, body: BodyKind) -> Row:
-        """The columns of what pushes, and the share below which it does not start."""
         own = Pushing.row(self, body)
         return {**own, "starts": self.starts} if self.starts > 0 else own
 
@@ -147,22 +136,20 @@ class Wheel(Rolling):
     """
 
     side: Annotated[Side, SIDE]
-    neutral: Annotated[float, RATIO]
-    thrust: Annotated[float, THRUST] = 80.0
-    delay: Annotated[int, TICKS] = 0
-    noise: Annotated[float, RATIO] = 0.0
-    slip: Annotated[float, RATIO] = 0.0
-    starts: Annotated[float, RATIO] = left_out(0.0)
+    neutral: Ratio
+    thrust: Thrust = 80.0
+    delay: Ticks = 0
+    noise: Ratio = 0.0
+    slip: Ratio = 0.0
+    starts: Ratio = left_out(0.0)
 
     drive = "wheel"
 
     @property
-    def mounted(self) -> Side:
-        """The side of the body that it is on."""
+    def mounted(self) -> Side:  # type: ignore[override]
         return self.side
 
     def place(self, body: BodyKind) -> Point:
-        """A point beside the body's middle, on the wheel's side."""
         return 0.0, body.side if self.side == "left" else -body.side
 
 
@@ -177,27 +164,24 @@ class Thruster(Pushing):
     the tick that computed it, with up to `noise` more or less; up to `slip` of the force is lost, anew in every tick.
     """
 
-    neutral: Annotated[float, RATIO]
+    neutral: Ratio
     at: Annotated[Place, PLACE] = (0.0, 0.0)
-    facing: Annotated[float, ANGLE] = 0.0
-    thrust: Annotated[float, THRUST] = 80.0
-    delay: Annotated[int, TICKS] = 0
-    noise: Annotated[float, RATIO] = 0.0
-    slip: Annotated[float, RATIO] = 0.0
+    facing: Angle = 0.0
+    thrust: Thrust = 80.0
+    delay: Ticks = 0
+    noise: Ratio = 0.0
+    slip: Ratio = 0.0
 
     drive = "thruster"
 
     def place(self, body: BodyKind) -> Point:
-        """The point of the body that its argument `at` names."""
         return self.at
 
     @property
     def direction(self) -> Point:
-        """The vector of length 1 at the angle that its argument `facing` says."""
         return cosine(self.facing), sine(self.facing)
 
     def push(self, body: BodyKind) -> tuple[Point, Point]:
-        """The place of a thruster on the body, and the direction in which it pushes."""
         return self.at, self.direction
 
 
@@ -211,12 +195,12 @@ class Motor(Rolling):
     to 0 or 1.
     """
 
-    neutral: Annotated[float, RATIO]
-    thrust: Annotated[float, THRUST] = 160.0
-    delay: Annotated[int, TICKS] = 0
-    noise: Annotated[float, RATIO] = 0.0
-    slip: Annotated[float, RATIO] = 0.0
-    starts: Annotated[float, RATIO] = left_out(0.0)
+    neutral: Ratio
+    thrust: Thrust = 160.0
+    delay: Ticks = 0
+    noise: Ratio = 0.0
+    slip: Ratio = 0.0
+    starts: Ratio = left_out(0.0)
 
     drive = "motor"
 
@@ -234,21 +218,19 @@ class Steering(ActuatorKind):
     A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less.
     """
 
-    neutral: Annotated[float, RATIO]
+    neutral: Ratio
     range: Annotated[float, TURN] = 30 * DEGREE
-    delay: Annotated[int, TICKS] = 0
-    noise: Annotated[float, RATIO] = 0.0
+    delay: Ticks = 0
+    noise: Ratio = 0.0
 
     varying = ("range", "delay", "noise")
     drive = "steering"
 
     @property
-    def acts_at_rest(self) -> bool:
-        """True if it turns at its neutral command, or may with its noise."""
+    def acts_at_rest(self) -> bool:  # type: ignore[override]
         return (self.neutral != STOPPED_COMMAND or self.noise > 0) and self.range != 0.0
 
     def row(self, body: BodyKind) -> Row:
-        """The largest angle, in radians, and its noise."""
         return {"turn": self.range, "noise": self.noise}
 
 
@@ -264,21 +246,19 @@ class Gripper(ActuatorKind):
     A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less.
     """
 
-    neutral: Annotated[float, RATIO]
-    reach: Annotated[float, LENGTH] = REACH_UNITS
-    delay: Annotated[int, TICKS] = 0
-    noise: Annotated[float, RATIO] = 0.0
+    neutral: Ratio
+    reach: Length = REACH_UNITS
+    delay: Ticks = 0
+    noise: Ratio = 0.0
 
     varying = ("delay", "noise")
     zero = 0.0
 
     @property
-    def acts_at_rest(self) -> bool:
-        """True if it is closed at its neutral command, or may be with its noise."""
+    def acts_at_rest(self) -> bool:  # type: ignore[override]
         return self.neutral + self.noise > CLOSED_COMMAND
 
     def row(self, body: BodyKind) -> Row:
-        """The columns of a gripper: reach in world units, and noise."""
         return {"reach": self.reach, "noise": self.noise}
 
 
@@ -290,8 +270,8 @@ class Servo(ActuatorKind):
     begins. A command acts `delay` ticks after the tick that computed it.
     """
 
-    neutral: Annotated[float, RATIO]
-    delay: Annotated[int, TICKS] = 0
+    neutral: Ratio
+    delay: Ticks = 0
     range: Annotated[float, HALF_TURN] = left_out(90 * DEGREE)
     speed: Annotated[float, TURNING] = left_out(360 * DEGREE)
 
@@ -299,7 +279,6 @@ class Servo(ActuatorKind):
     carries = True
 
     def row(self, body: BodyKind) -> Row:
-        """The largest angle, in radians, and how far it turns in a tick."""
         return {"turn": self.range, "speed": self.speed}
 
 
@@ -307,8 +286,8 @@ class Servo(ActuatorKind):
 class Lamp(ActuatorKind):
     """A lamp: 0 dark, 1 bright. It changes nothing in the simulated world, and pictures show it."""
 
-    neutral: Annotated[float, RATIO]
-    delay: Annotated[int, TICKS] = 0
+    neutral: Ratio
+    delay: Ticks = 0
 
     zero = 0.0
     is_light = True
@@ -323,15 +302,14 @@ class Action(ActuatorKind):
     The `range` is what the environment says, unless it is given, and has to be where the environment says none.
     """
 
-    action: Annotated[tuple[int, ...], INDEX]
-    neutral: Annotated[float, RATIO]
-    range: Annotated[Span, NUMBER] = UNSAID
-    part: Annotated[str, SLOT] = ""
-    delay: Annotated[int, TICKS] = 0
+    action: Indices
+    neutral: Ratio
+    range: Range = UNSAID
+    part: PartName = ""
+    delay: Ticks = 0
 
     @property
-    def slot(self) -> Slot:
-        """The number of the environment's action that the arguments name."""
+    def slot(self) -> Slot:  # type: ignore[override]
         return Slot(self.part, self.action, None if self.range == UNSAID else self.range)
 
 
@@ -343,12 +321,11 @@ class Choice(ActuatorKind):
     environment takes several at once (`MultiDiscrete`), the place stands before the number.
     """
 
-    choice: Annotated[tuple[int, ...], INDEX]
-    neutral: Annotated[float, RATIO]
-    part: Annotated[str, SLOT] = ""
-    delay: Annotated[int, TICKS] = 0
+    choice: Indices
+    neutral: Ratio
+    part: PartName = ""
+    delay: Ticks = 0
 
     @property
-    def slot(self) -> Slot:
-        """The place at which it is chosen: the only one, where none is said."""
+    def slot(self) -> Slot:  # type: ignore[override]
         return Slot(self.part, self.choice[:-1] or (0,), chosen=self.choice[-1])

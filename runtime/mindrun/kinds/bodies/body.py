@@ -8,9 +8,9 @@ from mindrun.kinds.registry import base, kind
 from mindrun.numbers.quantity import Extent, Quantity
 
 DIAMETER = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1000.0)
-DENSITY = Quantity("a density", {"": 1.0}, low=1e-3, high=1e6)
-FRICTION = Quantity("a coefficient of friction", {"": 1.0}, low=0.0, high=100.0)
-DAMPING = Quantity("a damping", {"": 1.0}, low=0.0, high=1e6)
+Density = Annotated[float, Quantity("a density", {"": 1.0}, low=1e-3, high=1e6)]
+Friction = Annotated[float, Quantity("a coefficient of friction", {"": 1.0}, low=0.0, high=100.0)]
+Damping = Annotated[float, Quantity("a damping", {"": 1.0}, low=0.0, high=1e6)]
 FRICTION_COEFFICIENT = 0.2  # Box2D's default; elasticity is 0 in both engines
 LINEAR_DAMPING, ANGULAR_DAMPING = 5.0, 20.0  # per second
 LEAST_COSINE = 1e-9  # of a direction that meets a side
@@ -20,33 +20,19 @@ Point = tuple[float, float]  # x ahead of the middle, y to its left
 
 
 @base("body")
+@dataclass(frozen=True, slots=True, kw_only=True)
 class BodyKind:
-    """A solid body that looks along its x axis; a kind says what is different about it.
+    """A solid body that looks along its x axis, with what any has: every tick it loses motion, as the dampings say."""
 
-    Every kind has the arguments `density`, `friction` (against what it touches), `linear_damping` and
-    `angular_damping`: every tick of length dt its velocity is divided by 1 + dt·damping.
-    """
+    density: Density = 2.0
+    friction: Friction = FRICTION_COEFFICIENT
+    linear_damping: Damping = LINEAR_DAMPING
+    angular_damping: Damping = ANGULAR_DAMPING
 
-    __slots__ = ()
-
-    density: float
-    friction: float
-    linear_damping: float
-    angular_damping: float
-
-    # The arguments that can differ from run to run.
-    varying: tuple[str, ...] = ("density", "friction", "linear_damping", "angular_damping")
-    drives: tuple[Drive, ...] = ()  # what can move it
-
-    @property
-    def outline(self) -> tuple[Point, ...]:
-        """The corners in the body's frame, counterclockwise; none where it is round."""
-        return ()
-
-    @property
-    def axle_distance(self) -> float:
-        """The distance between two axles that do not slip sideways; 0 where it has none."""
-        return 0.0
+    varying = ("density", "friction", "linear_damping", "angular_damping")  # that can differ from run to run
+    drives = tuple[Drive, ...]()  # what can move it
+    outline = tuple[Point, ...]()  # the corners in the body's frame, counterclockwise; none where it is round
+    axle_distance = 0.0  # between two axles that do not slip sideways; 0 where it has none
 
     @property
     def radius(self) -> float:
@@ -74,14 +60,10 @@ class BodyKind:
         raise NotImplementedError
 
     @property
-    def mass(self) -> float:
-        """Density times area."""
-        return self.density * self.area[0] * self.area[1]
-
-    @property
     def moment(self) -> float:
-        """The moment of inertia about its middle."""
-        return self.mass * self.gyration[0] / self.gyration[1]
+        """The moment of inertia about its middle; the mass is density times area."""
+        mass = self.density * self.area[0] * self.area[1]
+        return mass * self.gyration[0] / self.gyration[1]
 
     def rim(self, angle: float) -> float:
         """The distance from its middle to its rim in a direction, counterclockwise from straight ahead."""
@@ -93,19 +75,13 @@ class Round(BodyKind):
     """A disc of diameter `size`."""
 
     size: Annotated[float, DIAMETER] = 2.0
-    density: Annotated[float, DENSITY] = 2.0
-    friction: Annotated[float, FRICTION] = FRICTION_COEFFICIENT
-    linear_damping: Annotated[float, DAMPING] = LINEAR_DAMPING
-    angular_damping: Annotated[float, DAMPING] = ANGULAR_DAMPING
 
     @property
     def radius(self) -> float:
-        """Half of its size."""
         return self.size / 2
 
     @property
     def area(self) -> tuple[float, float]:
-        """π·r², the area of a disc, as its factors."""
         return pi, self.radius**2
 
     @property
@@ -114,12 +90,11 @@ class Round(BodyKind):
         return self.radius**2, 2.0
 
 
+@dataclass(frozen=True, slots=True)
 class Rectangular(BodyKind):
     """A rectangle as long and as wide as its two sizes say."""
 
-    __slots__ = ()
-
-    size: Extent
+    size: Annotated[Extent, DIAMETER] = (3.0, 2.0)
 
     @property
     def sides(self) -> Point:
@@ -127,29 +102,24 @@ class Rectangular(BodyKind):
         return self.size if isinstance(self.size, tuple) else (self.size, self.size)
 
     @property
-    def outline(self) -> tuple[Point, ...]:
-        """The four corners in the body's frame, counterclockwise from the right one behind."""
+    def outline(self) -> tuple[Point, ...]:  # type: ignore[override]
         x, y = self.front, self.side
         return (-x, -y), (x, -y), (x, y), (-x, y)
 
     @property
     def radius(self) -> float:
-        """Half of its diagonal."""
         return hypot(*self.sides) / 2
 
     @property
     def front(self) -> float:
-        """Half of its length."""
         return self.sides[0] / 2
 
     @property
     def side(self) -> float:
-        """Half of its width."""
         return self.sides[1] / 2
 
     @property
     def area(self) -> tuple[float, float]:
-        """The two sides, whose product is the area."""
         return self.sides
 
     @property
@@ -158,7 +128,6 @@ class Rectangular(BodyKind):
         return self.sides[0] * self.sides[0] + self.sides[1] * self.sides[1], 12.0
 
     def rim(self, angle: float) -> float:
-        """The distance from the middle at which a ray leaves the rectangle."""
         ahead, aside = max(abs(cos(angle)), LEAST_COSINE), max(abs(sin(angle)), LEAST_COSINE)
         return min(self.front / ahead, self.side / aside)
 
@@ -190,12 +159,6 @@ class Box(Rectangular):
     Every tick of length dt its velocity is divided by 1 + dt·damping.
     """
 
-    size: Annotated[Extent, DIAMETER] = (3.0, 2.0)
-    density: Annotated[float, DENSITY] = 2.0
-    friction: Annotated[float, FRICTION] = FRICTION_COEFFICIENT
-    linear_damping: Annotated[float, DAMPING] = LINEAR_DAMPING
-    angular_damping: Annotated[float, DAMPING] = ANGULAR_DAMPING
-
     drives = ("wheel", "thruster")
 
 
@@ -211,16 +174,10 @@ class Car(Rectangular):
     the steering has left of other motion is lost, as to forces that act on the axles and do no work.
     """
 
-    size: Annotated[Extent, DIAMETER] = (3.0, 2.0)
     wheelbase: Annotated[float, WHEELBASE] = 0.6
-    density: Annotated[float, DENSITY] = 2.0
-    friction: Annotated[float, FRICTION] = FRICTION_COEFFICIENT
-    linear_damping: Annotated[float, DAMPING] = LINEAR_DAMPING
-    angular_damping: Annotated[float, DAMPING] = ANGULAR_DAMPING
 
     drives = ("motor", "steering")
 
     @property
-    def axle_distance(self) -> float:
-        """The share of its length."""
+    def axle_distance(self) -> float:  # type: ignore[override]
         return self.wheelbase * self.sides[0]

@@ -7,9 +7,8 @@ from typing import Annotated, NamedTuple, Protocol
 
 from mindrun.kinds.registry import base, kind, left_out, phrase
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.about import AboutThing
-from mindrun.kinds.things.thing import ThingKind, WorldFacts
-from mindrun.numbers.quantity import THING, Quantity, Reference
+from mindrun.kinds.things.thing import AboutThing, ThingKind, WorldFacts
+from mindrun.numbers.quantity import Quantity, Reference, ThingName
 
 Row = Mapping[str, float]  # columns of the lanes' table of events
 WITHIN_TICKS = Quantity("a number of ticks", {"ticks": 1.0}, low=1, high=10_000_000, whole=True)
@@ -84,7 +83,8 @@ class EventKind(AboutThing):
         """The hindrance where it can never happen although its task lacks nothing, else None."""
         return None
 
-    def remembered(self, things: int, others: int) -> int:
+    @staticmethod
+    def remembered(things: int, others: int) -> int:
         """How many of its things, or of the others, the lanes remember to have been where they are."""
         return 0
 
@@ -98,7 +98,6 @@ class Collision(EventKind):
     """The body, or the item it holds, begins to touch an obstacle or a wall; to push a box or ball is no collision."""
 
     def prevented(self, world: WorldFacts) -> Hindrance | None:
-        """A hindrance where nothing solid is fixed in the world."""
         if world.has_fixed:
             return None
         hint = "Write in arena size 100, or add contains rock is obstacle count 10."
@@ -113,22 +112,18 @@ class Reach(EventKind):
     or power, or its rim no farther from that of anything else than a claw reaches; nothing becomes of what it reaches.
     """
 
-    of: Annotated[str, THING]
-    by: Annotated[str, THING] = left_out("")
+    of: ThingName
+    by: ThingName = left_out("")
 
     @property
     def outcome(self) -> str:  # type: ignore[override]
-        """The argument of what the robot reaches; of what another thing reaches none."""
         return "" if self.by else "reached"
 
     @classmethod
     def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:
-        """True for whatever can be reached; what reaches it is not on the floor itself."""
         return cls.is_about(kind) and not (argument == "by" and kind.is_area)
 
-    def remembered(self, things: int, others: int) -> int:
-        """One for each thing that may be there."""
-        return others
+    remembered = staticmethod(lambda things, others: others)
 
 
 @kind("event", "leave")
@@ -139,22 +134,16 @@ class Leave(EventKind):
     is left.
     """
 
-    of: Annotated[str, THING]
-    by: Annotated[str, THING] = ""
+    of: ThingName
+    by: ThingName = ""
 
-    @staticmethod
-    def is_about(kind: type[ThingKind]) -> bool:
-        """True for squares on the floor."""
-        return kind.is_area
+    is_about = staticmethod(lambda kind: kind.is_area)  # squares on the floor
 
     @classmethod
     def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:
-        """True for squares on the floor, or for `by` whatever else there is but obstacles."""
         return not (kind.is_area or kind.is_obstacle) if argument == "by" else cls.is_about(kind)
 
-    def remembered(self, things: int, others: int) -> int:
-        """One for each thing that may be there, or for the robot."""
-        return max(1, others)
+    remembered = staticmethod(lambda things, others: max(1, others))  # the robot alone where there is no other
 
 
 PATCH = Quantity("a length in world units", {"": 1.0}, low=0.1, high=1e5)
@@ -170,7 +159,6 @@ class Visit(EventKind):
     needs_walls = True
 
     def missing(self, task: TaskWorld) -> Hindrance | None:
-        """A hindrance where the scene has no walls, and so no end of patches."""
         if task.scene is None or task.scene.is_bounded:
             return None
         return Hindrance("A plain scene has no patches to visit.", "Patches are of an arena: write in arena size 100.")
@@ -189,33 +177,24 @@ class Delivery(EventKind):
     With `to` it is about zones of that name alone, whichever others it comes through.
     """
 
-    of: Annotated[str, THING]
-    to: Annotated[str, THING] = ""
+    of: ThingName
+    to: ThingName = ""
 
     outcome = "delivered"
 
-    @staticmethod
-    def is_about(kind: type[ThingKind]) -> bool:
-        """True for things that a claw can take or that can be pushed."""
-        return kind.can_be_delivered
-
-    def remembered(self, things: int, others: int) -> int:
-        """One for each thing, where it is about certain zones."""
-        return things if others else 0
+    is_about = staticmethod(lambda kind: kind.can_be_delivered)
+    remembered = staticmethod(lambda things, others: things if others else 0)  # where it is about certain zones
 
     @classmethod
     def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:
-        """True for a zone, where `argument` is `to`; else for things that can be delivered."""
         return kind.takes_items if argument == "to" else cls.is_about(kind)
 
     def missing(self, task: TaskWorld) -> Hindrance | None:
-        """A hindrance where the task has no zone to deliver to."""
         if any(kind.takes_items for kind in task.kinds):
             return None
         return Hindrance("The task has no zone to deliver to.", "Add contains drop_zone is zone size 5.")
 
     def prevented(self, world: WorldFacts) -> Hindrance | None:
-        """A hindrance where nothing closes the claw, or the item vanishes before it can be taken."""
         if self.of not in world.loose and not world.can_hold:
             return Hindrance("no skill that a master reaches drives a gripper", "Let a skill drive one.")
         if self.of in world.fleeting:
@@ -231,13 +210,11 @@ class Exhaustion(EventKind):
     is_of_battery = True
 
     def missing(self, task: TaskWorld) -> Hindrance | None:
-        """A hindrance where the robot has no battery."""
         if task.has_battery:
             return None
         return Hindrance("Without a battery nothing is exhausted.", "Declare one: sensor battery is battery.")
 
     def prevented(self, world: WorldFacts) -> Hindrance | None:
-        """A hindrance where the battery never loses any charge."""
         return None if world.drains else Hindrance("the battery does not drain", "Give it a drain above 0.")
 
 
@@ -248,7 +225,6 @@ class Success(EventKind):
     is_of_success = True
 
     def missing(self, task: TaskWorld) -> Hindrance | None:
-        """A hindrance where no line of the task says when a run succeeds."""
         if task.can_succeed:
             return None
         return Hindrance("The task does not say what a success is.", "Add a line: succeeds on 5 delivery of red.")

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-from mindrun.kinds.functions.function import WIDTH, NetworkFunction
+from mindrun.kinds.functions.function import NetworkFunction, Width
 from mindrun.kinds.functions.mlp import layer
 from mindrun.kinds.registry import kind
 
 if TYPE_CHECKING:  # a lane is given its terms when it is compiled
-    from mindrun.numbers.arithmetic import ZERO
+    from mindrun.numbers.arithmetic import *
     from mindrun.numbers.arrays import Layers
     from mindrun.numbers.network import Terms
 
@@ -23,16 +23,14 @@ class Elman(NetworkFunction):
     run. A skill without influence does not compute, and remembers.
     """
 
-    width: Annotated[int, WIDTH] = 0
+    width: Width = 0
 
     opaque = "remembers what it computed"
 
     def state_length(self, inputs: int, outputs: int) -> int:
-        """One number for each hidden neuron: its last output."""
         return self.neurons(inputs, outputs)
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
-        """The hidden neurons' matrix, over the inputs and their own last outputs, and the outputs' matrix."""
         width = self.neurons(inputs, outputs)
         return ((inputs + width, width), (width, outputs)) if width else ()
 
@@ -43,7 +41,6 @@ class Elman(NetworkFunction):
         return of.product(said, last), said
 
     def scratch(self, inputs: int, outputs: int) -> int:
-        """One row for each neuron and each output."""
         return self.neurons(inputs, outputs) + outputs
 
     @staticmethod

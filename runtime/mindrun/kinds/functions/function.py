@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Protocol, Self, runtime_checkable
+from typing import TYPE_CHECKING, Annotated, Any, Protocol, Self, runtime_checkable
 
 from mindrun.kinds.registry import base, kind
 from mindrun.numbers.quantity import Quantity
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from mindrun.numbers.arrays import Compute, Layers, Weights
     from mindrun.numbers.network import Terms
 
-WIDTH = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
+Width = Annotated[int, Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)]
 # Of the weights that learning begins with, 4: without biases, small weights leave every sigmoid near 1/2. Tried on a
 # stand-in for GoToObject, 6 seeds each, until 17 targets: with 1 one seed got there in 100 M ticks, with 2 all by the
 # 10th generation, with 4 five in the first; 6 (until 22 targets) was no better than 4.
@@ -42,16 +42,8 @@ class Function:
     learns = False
     has_outputs = True  # whether edges without `at` can send one
     opaque = ""  # why nothing can be proved of its outputs, even with its weights
-
-    @property
-    def calls(self) -> str | None:
-        """The Python function that it calls, `module.function`, whose text belongs to the mind, if it calls one."""
-        return None
-
-    @property
-    def derived(self) -> tuple[str, ...]:
-        """The arguments that nobody has said and that follow from what its skill reads and sends."""
-        return ()
+    calls: str | None = None  # the Python function whose text belongs to the mind, `module.function`, if it calls one
+    derived: tuple[str, ...] = ()  # arguments that nobody said and that follow from what its skill reads and sends
 
     def explicit(self, inputs: int, outputs: int) -> Self:
         """The function with every argument said that follows from its inputs and outputs."""
@@ -137,25 +129,19 @@ class NetworkFunction(Function):
         return (self.width or max(inputs, outputs) + 2) if inputs and outputs else 0
 
     @property
-    def derived(self) -> tuple[str, ...]:
-        """The width, where Eq. 5 says it."""
+    def derived(self) -> tuple[str, ...]:  # type: ignore[override]
         return () if self.width else ("width",)
 
     def explicit(self, inputs: int, outputs: int) -> Self:
-        """The network with its width said, if it has a hidden neuron."""
         if len(self.matrix_shapes(inputs, outputs)) < 2:
             return self
         return replace(self, width=self.neurons(inputs, outputs))  # type: ignore[type-var]
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
-        """The number of neurons of a hidden layer, as `width`."""
         return {"width": self.neurons(inputs, outputs)}
 
     def draw(self, inputs: int, outputs: int, count: int, rng: np.random.Generator) -> Weights:
-        """Random genomes [count, weights] whose outputs are 1/2 where all neurons say 1/2.
-
-        Without biases the outputs would otherwise lie anywhere, most beyond 0..1, where they answer to no input.
-        """
+        """Random genomes [count, weights] whose outputs are 1/2 where all neurons say 1/2."""
         import numpy as np
 
         genomes = INITIAL_SPREAD * rng.standard_normal((count, self.genome_length(inputs, outputs)), np.float32)
@@ -167,7 +153,6 @@ class NetworkFunction(Function):
     def widened(
         self, weights: Weights, before: tuple[int, int], now: Function, after: tuple[int, int]
     ) -> Weights | None:
-        """The genome in a larger one whose other weights are 0; None where a matrix is missing or smaller."""
         from mindrun.numbers.network import genome, matrices, padded
 
         small, large = self.matrix_shapes(*before), now.matrix_shapes(*after)
@@ -181,7 +166,6 @@ class NetworkFunction(Function):
         return genome(map(padded, found, large, cuts, places))
 
     def reordered(self, weights: Weights, inputs: Sequence[int], outputs: Sequence[int]) -> Weights:
-        """The columns of what reads the inputs and the rows of the last matrix in this order."""
         from mindrun.numbers.network import genome, matrices
 
         shapes = self.matrix_shapes(len(inputs), len(outputs))

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from mindrun.kinds.functions.elman import recall, remember
-from mindrun.kinds.functions.function import WIDTH, NetworkFunction
+from mindrun.kinds.functions.function import NetworkFunction, Width
 from mindrun.kinds.functions.mlp import layer
 from mindrun.kinds.registry import kind
 
 if TYPE_CHECKING:  # a lane is given its terms when it is compiled
-    from mindrun.numbers.arithmetic import LANES, ONE, load, store
+    from mindrun.numbers.arithmetic import *
     from mindrun.numbers.arrays import Layers
     from mindrun.numbers.network import Terms
 
@@ -26,17 +26,15 @@ class Gru(NetworkFunction):
     what an `elman` forgets. A skill without influence does not compute, and remembers.
     """
 
-    width: Annotated[int, WIDTH] = 0
+    width: Width = 0
 
     opaque = "remembers what it computed"
     readers = 3
 
     def state_length(self, inputs: int, outputs: int) -> int:
-        """One number for each neuron: its last output."""
         return self.neurons(inputs, outputs)
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
-        """The matrices of the reset gates, the update gates, the candidates and the outputs, in this order."""
         width = self.neurons(inputs, outputs)
         return (*[(inputs + width, width)] * 3, (width, outputs)) if width else ()
 
@@ -50,7 +48,6 @@ class Gru(NetworkFunction):
         return of.product(said, last), said
 
     def scratch(self, inputs: int, outputs: int) -> int:
-        """One row for each of two gates and the candidate of every neuron, and for each output."""
         return 3 * self.neurons(inputs, outputs) + outputs
 
     @staticmethod

@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.kinds.functions.function import WIDTH, NetworkFunction
+from mindrun.kinds.functions.function import NetworkFunction, Width
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
 
 if TYPE_CHECKING:  # a lane is given its terms when it is compiled
-    from mindrun.numbers.arithmetic import LANES, ZERO, load, sigmoids, splat, store
+    from mindrun.numbers.arithmetic import *
     from mindrun.numbers.arrays import Layers
     from mindrun.numbers.network import Terms
 
@@ -23,15 +23,13 @@ class Mlp(NetworkFunction):
     """A perceptron with `hidden` layers of `width` neurons (0: Eq. 5, max(inputs, outputs) + 2)."""
 
     hidden: Annotated[int, HIDDEN] = 2
-    width: Annotated[int, WIDTH] = 0
+    width: Width = 0
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
-        """A matrix for each hidden layer, and the outputs'; none where the skill has no inputs or outputs."""
         widths = [self.neurons(inputs, outputs)] * self.hidden
         return tuple(pairwise((inputs, *widths, outputs))) if inputs and outputs else ()
 
     def forward(self, of: Terms, matrices: Sequence[Any], inputs: Any, state: Any) -> tuple[Any, Any]:
-        """Compute each layer from the one before: sigmoids of the sums, but for the last layer's."""
         *hidden, last = matrices
         values = inputs
         for matrix in hidden:
@@ -39,12 +37,10 @@ class Mlp(NetworkFunction):
         return of.product(values, last), state
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
-        """The number of hidden layers and their width; empty where it has none, or nothing to compute."""
         shapes = self.matrix_shapes(inputs, outputs)
         return {"hidden": self.hidden, "width": shapes[0][1]} if len(shapes) > 1 else {}
 
     def scratch(self, inputs: int, outputs: int) -> int:
-        """Rows for two layers, of which each is computed from the other by turns."""
         return 2 * max(self.neurons(inputs, outputs) if self.hidden else 0, outputs)
 
     @staticmethod

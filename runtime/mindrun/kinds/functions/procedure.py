@@ -33,12 +33,10 @@ class Procedure(Function):
     opaque = "is Python code"
 
     @property
-    def calls(self) -> str:
-        """The Python function that it calls, as `module.function`."""
+    def calls(self) -> str:  # type: ignore[override]
         return self.from_
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Sources) -> Compute:
-        """The Python function, in a module of its own."""
         from mindrun.kinds.procedure_call import RunningProcedure
 
         return RunningProcedure(self.from_, sources, outputs)

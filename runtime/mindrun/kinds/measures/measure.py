@@ -5,8 +5,8 @@ from math import inf
 from typing import Annotated
 
 from mindrun.kinds.registry import base, kind, left_out
-from mindrun.kinds.things.about import AboutThing
-from mindrun.numbers.quantity import RATIO, THING, TICKS, Reference
+from mindrun.kinds.things.thing import AboutThing
+from mindrun.numbers.quantity import TICKS, Ratio, Reference, ThingName
 
 
 @base("measure")
@@ -28,16 +28,16 @@ class Progress(MeasureKind):
     With `of` it is the distance of another thing; of several, that of the two that are nearest to each other.
     """
 
-    toward: Annotated[str, THING]
-    of: Annotated[str, THING] = left_out("")
+    toward: ThingName
+    of: ThingName = left_out("")
 
 
 @kind("measure", "advance")
 class Advance(MeasureKind):
     """The progress toward the thing where it is positive, else 0."""
 
-    toward: Annotated[str, THING]
-    of: Annotated[str, THING] = left_out("")
+    toward: ThingName
+    of: ThingName = left_out("")
 
     interval = (0.0, inf)
 
@@ -46,8 +46,8 @@ class Advance(MeasureKind):
 class Retreat(MeasureKind):
     """The distance to the thing gained in this tick where it grew, else 0."""
 
-    from_: Annotated[str, THING]
-    of: Annotated[str, THING] = left_out("")
+    from_: ThingName
+    of: ThingName = left_out("")
 
     interval = (0.0, inf)
 
@@ -59,8 +59,8 @@ class Apart(MeasureKind):
     0 where all of one name have vanished.
     """
 
-    to: Annotated[str, THING]
-    of: Annotated[str, THING]
+    to: ThingName
+    of: ThingName
 
     interval = (0.0, inf)
 
@@ -77,7 +77,7 @@ class CommandChange(MeasureKind):
     """Sum over the wheels of how much the command changed over the last `over` ticks, beyond a share of its travel."""
 
     of: Annotated[str, Reference("quantity", ("thrust",))]
-    beyond: Annotated[float, RATIO] = 0.0
+    beyond: Ratio = 0.0
     over: Annotated[int, replace(TICKS, low=1.0)] = 10
 
     interval = (0.0, inf)

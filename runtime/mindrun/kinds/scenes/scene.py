@@ -16,16 +16,8 @@ class SceneKind:
     """A world without borders; a kind says what is different about it."""
 
     __slots__ = ()
-
-    @property
-    def environment(self) -> str:
-        """The environment that is this world; empty where the lanes simulate it."""
-        return ""
-
-    @property
-    def sides(self) -> tuple[float, float]:
-        """A scene's lengths along x and y in world units; infinite where it has no walls. The origin is its middle."""
-        return inf, inf
+    environment = ""  # that is this world; empty where the lanes simulate it
+    sides = inf, inf  # its lengths along x and y in world units, infinite without walls; the origin is its middle
 
     @property
     def is_bounded(self) -> bool:
@@ -52,7 +44,6 @@ class Plain(SceneKind):
     """A world without borders; the robot starts in its origin."""
 
     def distances(self, least: float) -> tuple[float, float]:
-        """The least and the greatest distance, so that the robot can find the thing."""
         return MIN_DISTANCE_UNITS, MAX_DISTANCE_UNITS
 
 
@@ -66,8 +57,7 @@ class Arena(SceneKind):
     size: Annotated[Extent, SIDE] = 100.0
 
     @property
-    def sides(self) -> tuple[float, float]:
-        """The lengths of the world along x and y; a size of one number is both."""
+    def sides(self) -> tuple[float, float]:  # type: ignore[override]
         return self.size if isinstance(self.size, tuple) else (self.size, self.size)
 
 
@@ -78,6 +68,5 @@ class Gymnasium(SceneKind):
     gymnasium: Annotated[str, Reference("environment")]
 
     @property
-    def environment(self) -> str:
-        """The environment's name, as Gymnasium has it."""
+    def environment(self) -> str:  # type: ignore[override]
         return self.gymnasium

@@ -6,28 +6,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Physical
 from mindrun.kinds.things.thing import WorldFacts
-from mindrun.numbers.quantity import ANGLE, Quantity
+from mindrun.numbers.quantity import Angles, Quantity
 from mindrun.numbers.trigonometry import cosine, sine
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.numbers.arithmetic import (
-        BOX_COLUMNS,
-        COSINE,
-        HALF_X,
-        HALF_Y,
-        LOOSE_ROWS,
-        ONE,
-        SINE,
-        TURN,
-        ZERO,
-        X,
-        Y,
-        place_of,
-        sine_cosine,
-        size_of,
-    )
+    from mindrun.numbers.arithmetic import *
 
 WIDTH = Quantity("an angle", {"deg": pi / 180}, low=pi / 180, high=2 * pi)
 
@@ -40,29 +25,26 @@ class Bumper(Physical):
     Angles turn counterclockwise from straight ahead; each switch is `width` wide, half of it to either side.
     """
 
-    at: Annotated[tuple[float, ...], ANGLE] = (0.0,)
+    at: Angles = (0.0,)
     width_: Annotated[float, WIDTH] = pi / 4
 
     near = 1
     remedy = "Let a task contain something solid"
 
     @property
-    def sector(self) -> float:
-        """The width of each switch."""
+    def sector(self) -> float:  # type: ignore[override]
         return self.width_
 
     @property
-    def numbers(self) -> tuple[float, ...]:
+    def numbers(self) -> tuple[float, ...]:  # type: ignore[override]
         """The cosine of half the width, then cosine and sine of each angle."""
         return cosine(self.width_ / 2), *(f(angle) for angle in self.at for f in (cosine, sine))
 
     def constant(self, world: WorldFacts) -> float | None:
-        """0 in a world where nothing is solid, else None."""
         return None if world.is_solid else 0.0
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """Press the switches that the nearest point of a box, a wall or a loose thing touches."""
         half_x, half_y = t.world[0].half_x, t.world[0].half_y
         for p in range(n):
             for k in range(sensor.width):

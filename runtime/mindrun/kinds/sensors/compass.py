@@ -1,15 +1,15 @@
 """Directions of the world and of what turns on the robot."""
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Physical
-from mindrun.numbers.quantity import RATIO, SERVO
+from mindrun.numbers.quantity import Ratio, ServoName
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.numbers.arithmetic import COSINE, HALF, SINE, F, bearing
+    from mindrun.numbers.arithmetic import *
 
 
 @kind("sensor", "compass")
@@ -19,7 +19,7 @@ class Compass(Physical):
     Within `dead_zone` of straight ahead it reads 0.5. It goes round: noise leads from 0 to 1, which are both behind.
     """
 
-    dead_zone: Annotated[float, RATIO] = 0.0
+    dead_zone: Ratio = 0.0
 
     circular = True
     scaled = True
@@ -27,7 +27,6 @@ class Compass(Physical):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """0.5 − atan2/2π of north in the body's frame."""
         out = s.readings[sensor.start]
         for p in range(n):
             v = bearing(F(s.heading[SINE, p]), F(s.heading[COSINE, p]))
@@ -42,7 +41,7 @@ class Direction(Physical):
     where it is sent. On a robot it is reckoned from what the servo was sent, where robot.yaml names no driver for it.
     """
 
-    of: Annotated[str, SERVO]
+    of: ServoName
 
     circular = True
     scaled = True
@@ -52,7 +51,6 @@ class Direction(Physical):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """0.5 − angle/2π."""
         out, angles = s.readings[sensor.start], s.swivel[sensor.servo]
         for p in range(n):
             out[p] = F(0.5 - angles[p] / (2.0 * np.pi))

@@ -1,4 +1,4 @@
-"""An expression over other readings."""
+"""An expression over other readings, and a promise of a skill, which is one, that is broken."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from math import isfinite
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Flaw, Scene, SensorKind
+from mindrun.kinds.sensors.sensor import Begin, Bounds, Flaw, Row, Scene, SensorKind
 from mindrun.kinds.things.thing import WorldFacts
-from mindrun.numbers.expression import Formula, evaluate, fold, is_valid_program, named, placed, single
-from mindrun.numbers.quantity import EXPRESSION
+from mindrun.numbers.expression import Formula, evaluate, fold, is_condition, is_valid_program, placed, single
+from mindrun.numbers.quantity import EXPRESSION, SKILL
 from mindrun.numbers.stack_machine import evaluate as run_program
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.numbers.arithmetic import NAN, ONE, ZERO, F, clamp, finite
+    from mindrun.numbers.arithmetic import *
     from mindrun.numbers.arrays import Reader, Readings
 
 
@@ -31,16 +31,6 @@ class Computed(SensorKind):
     at: Annotated[Formula, EXPRESSION]
 
     remedy = "Let it depend on a reading, or write the number where it is read"
-
-    @property
-    def sources(self) -> tuple[str, ...]:
-        """The sensors and memories that the expression names, each once."""
-        return named(self.at)
-
-    @property
-    def formula(self) -> Formula:
-        """The expression that it computes, in postfix order, with readings by their names."""
-        return self.at
 
     def goes_round(self, directions: Collection[str]) -> bool:
         """True if it is one direction, taken once, more or less numbers, or one of two such."""
@@ -64,14 +54,12 @@ class Computed(SensorKind):
         return fold(self.at, leaf, lambda count: None if count is None else -count, combined) in (1, -1)
 
     def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
-        """A flaw where the expression is not whole, or names what has not a single reading."""
         starts = dict.fromkeys(self.sources, 0)
         if not (is_valid_program(placed(self.at, starts)) and all(widths.get(name) == 1 for name in self.sources)):
             return Flaw("wide-reading", "at", "It has an expression that cannot be computed.", "Read single readings.")
         return None
 
     def constant(self, world: WorldFacts) -> float | None:
-        """The value of an expression that names no reading; None where it names one, or is no finite number."""
         if self.sources:
             return None
         value = single(evaluate(placed(self.at, {})))
@@ -95,10 +83,57 @@ class Computed(SensorKind):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """Run the program over all lanes in float64, and clamp as `reader` does."""
         codes, out = t.codes[sensor.code : sensor.code + sensor.length], s.readings[sensor.start]
         run_program(codes, s.readings, s.stack, s.readings, 0, s.stack, s.active, n, True)
         for p in range(n):
             v = F(s.stack[0, p])
             v = v - np.floor(v) if sensor.turns and (v < ZERO or v > ONE) else v
             out[p] = clamp(v) if finite(v) else NAN
+
+
+@kind("sensor", "broken")
+class Broken(SensorKind):
+    """1 where a skill acted in the tick before and what it `maintains` does not hold now, else 0.
+
+    Where it acted and what it maintains depends on what is no number, it is no reading.
+    """
+
+    broken: Annotated[str, SKILL]
+    maintains: Annotated[Formula, EXPRESSION] = ()
+
+    def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
+        is_one = self.maintains and is_condition(placed(self.maintains, dict.fromkeys(self.sources, 0)))
+        return Computed(self.maintains if is_one else ()).flaw(widths, directions)
+
+    def first(self, begin: Begin) -> Bounds:
+        return 0.0, 0.0
+
+    def constant(self, world: WorldFacts) -> float | None:
+        return None
+
+    def reader(self, scene: Scene) -> Reader:
+        """The condition, of which nobody asks where the influence in the tick before was 0."""
+        import numpy as np
+
+        program, place = placed(self.maintains, scene.starts), scene.skills[self.broken]
+
+        def read(number: int, now: Readings, before: Readings | None) -> np.float32:
+            if before is None or not before[len(now) + place] > 0:
+                return np.float32(0)
+            holds = evaluate(program, now)
+            return np.float32(0 if holds > 0 else 1 if holds == 0 else np.nan)
+
+        return read
+
+    def row(self, scene: Scene) -> Row:
+        return {"source": scene.skills[self.broken]}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """Run the condition over all lanes; the influence is still that of the tick before."""
+        codes, out, acted = t.codes[sensor.code : sensor.code + sensor.length], s.readings[sensor.start], s.influence
+        run_program(codes, s.readings, s.stack, s.readings, 0, s.stack, s.active, n, True)
+        for p in range(n):
+            holds = s.stack[0, p]
+            v = ZERO if holds > 0.0 else ONE if holds == 0.0 else NAN
+            out[p] = v if s.tick[p] > 0 and acted[sensor.source, p] > ZERO else ZERO

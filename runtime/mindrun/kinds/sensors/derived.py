@@ -9,23 +9,22 @@ from typing import TYPE_CHECKING, Annotated, Any
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Begin, Bounds, Flaw, Row, Scene, SensorKind
 from mindrun.kinds.things.thing import WorldFacts
-from mindrun.numbers.quantity import ANGLE, COUNT, POSITIVE, RATIO, SENSOR, WINDOW
+from mindrun.numbers.quantity import WINDOW, Angle, Count, Positive, Ratio, SensorName
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
-    from numpy.typing import NDArray
 
-    from mindrun.numbers.arithmetic import HALF, NAN, ONE, ZERO, F, clamp, finite, short_way, wrapped
-    from mindrun.numbers.arrays import Reader, Readings
+    from mindrun.numbers.arithmetic import *
+    from mindrun.numbers.arrays import Doubles, Reader, Readings
 
 
 @kind("sensor", "derivative")
 class Derivative(SensorKind):
     """Change of another sensor's readings: 0.5 none, 1 rising by `range` a second. A direction turns the short way."""
 
-    of: Annotated[str, SENSOR]
-    range: Annotated[float, POSITIVE] = 1.0
-    dead_zone: Annotated[float, RATIO] = 0.0
+    of: SensorName
+    range: Positive = 1.0
+    dead_zone: Ratio = 0.0
 
     shape = None
     remembered = 1
@@ -33,13 +32,11 @@ class Derivative(SensorKind):
 
     @property
     def remedy(self) -> str:  # type: ignore[override]
-        """A hint for one that never changes: a smaller dead zone, or another source."""
         if self.dead_zone > 0.5:
             return SensorKind.remedy
         return f"Derive it from another sensor than {self.of}, which never changes"
 
     def constant(self, world: WorldFacts) -> float | None:
-        """0.5 where the source never changes or the dead zone has every change, else None."""
         return 0.5 if world.is_constant(self.of) else SensorKind.constant(self, world)
 
     def reader(self, scene: Scene) -> Reader:
@@ -64,13 +61,11 @@ class Derivative(SensorKind):
 
         return read
 
-    def row(self, scene: Scene) -> Row:
-        """The inherited columns and `gain`: 0.5 / (range · tick)."""
-        return {**SensorKind.row(self, scene), "gain": 0.5 / (scene.tick * self.range)}
+    def gain(self, scene: Scene) -> float:
+        return 0.5 / (scene.tick * self.range)
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """0.5 + change · gain, the short way round a circle; 0.5 in the first tick."""
         for k in range(sensor.width):
             out, now, before = s.readings[sensor.start + k], s.readings[sensor.source + k], s.before[sensor.before + k]
             for p in range(n):
@@ -92,14 +87,13 @@ class Average(SensorKind):
     that is 0.995; as numbers it would be 0.495, the other way.
     """
 
-    of: Annotated[str, SENSOR]
+    of: SensorName
     over: Annotated[int, WINDOW]
 
     circular = shape = None
 
     @property
     def remembered(self) -> int:  # type: ignore[override]
-        """One number for each tick of the window."""
         return self.over
 
     def reader(self, scene: Scene) -> Reader:
@@ -109,7 +103,7 @@ class Average(SensorKind):
         from mindrun.numbers.arithmetic import short_way
 
         source, turns = scene.places[self.of], self.of in scene.directions
-        ring: list[NDArray[np.float64]] = []
+        ring: list[Doubles] = []
 
         def read(number: int, now: Readings, before: Readings | None) -> Readings:
             last = now[source].astype(np.float64)
@@ -152,18 +146,16 @@ class Turned(SensorKind):
     Of a direction that is not known, which reads 0.5, it is turned all the same.
     """
 
-    of: Annotated[str, SENSOR]
-    by: Annotated[float, ANGLE]
+    of: SensorName
+    by: Angle
 
     circular = shape = None
 
-    @property
-    def share(self) -> float:
+    def gain(self, scene: Scene) -> float:
         """The angle as a share of a whole turn."""
         return self.by / (2 * pi)
 
     def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
-        """A flaw where the source is not a direction."""
         if self.of in directions or self.of not in widths:
             return None
         hint = "Turn a bearing or a compass; to add to a number, write computed at."
@@ -174,10 +166,9 @@ class Turned(SensorKind):
         return None
 
     def reader(self, scene: Scene) -> Reader:
-        """The source less the share, without whole turns, in float64."""
         import numpy as np
 
-        source, share = scene.places[self.of], np.float64(np.float32(self.share))
+        source, share = scene.places[self.of], np.float64(np.float32(self.gain(scene)))
 
         def read(number: int, now: Readings, before: Readings | None) -> Readings:
             value = now[source].astype(np.float64) - share
@@ -185,13 +176,8 @@ class Turned(SensorKind):
 
         return read
 
-    def row(self, scene: Scene) -> Row:
-        """The inherited columns and the share, as `gain`."""
-        return {**SensorKind.row(self, scene), "gain": self.share}
-
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """The source less the share, without whole turns, in float64."""
         for k in range(sensor.width):
             out, now = s.readings[sensor.start + k], s.readings[sensor.source + k]
             for p in range(n):
@@ -207,20 +193,18 @@ class Mirrored(SensorKind):
     they have to stand alike on both sides: the first as far to one as the last to the other.
     """
 
-    of: Annotated[str, SENSOR]
+    of: SensorName
 
     circular = shape = None
     first = Turned.first
 
     def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
-        """A flaw where the source is a single reading without left and right."""
         if self.of in directions or widths.get(self.of, 2) > 1:
             return None
         hint = f"If it reads less on the left and more on the right, write computed at 1 - {self.of}."
         return Flaw("no-mirror", "of", f"{self.of} has one reading, and is not a direction.", hint)
 
     def misfit(self, kinds: Mapping[str, SensorKind]) -> Flaw | None:
-        """A flaw where several readings of what was measured do not stand alike on both sides."""
         measured = kinds.get(self.of)
         for _ in kinds:  # behind an average, a latch … of it
             measured = kinds.get(measured.source) if measured and measured.shape is None else measured
@@ -235,7 +219,6 @@ class Mirrored(SensorKind):
         return Flaw("no-mirror", "of", f"The readings of {self.of} do not stand alike on both sides.", hint)
 
     def reader(self, scene: Scene) -> Reader:
-        """1 less the source where that is a direction, else its readings from the last to the first."""
         import numpy as np
 
         source, turns = scene.places[self.of], self.of in scene.directions
@@ -243,7 +226,6 @@ class Mirrored(SensorKind):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """1 less the source where that is a direction, else its readings from the last to the first."""
         for k in range(sensor.width):
             out, now = s.readings[sensor.start + k], s.readings[sensor.source + sensor.width - 1 - k]
             for p in range(n):
@@ -258,28 +240,25 @@ class Latch(SensorKind):
     of its own.
     """
 
-    of: Annotated[str, SENSOR]
-    below: Annotated[float, RATIO]
-    above: Annotated[float, RATIO]
+    of: SensorName
+    below: Ratio
+    above: Ratio
 
     compares = True
     shape = None
     remembered = 1
 
     def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
-        """A flaw where `above` is less than `below`."""
         if self.below <= self.above:
             return None
         hint = "Write the smaller one after below: latch of battery below 20% above 80%."
         return Flaw("latch-backwards", "above", "This latch lets go before it closes.", hint)
 
     def first(self, begin: Begin) -> Bounds:
-        """The bounds of its first reading: 1 where its source is `below`, else 0."""
         low, high = begin.first(self.of)
         return 0.0 if high >= self.below else 1.0, 1.0 if low < self.below else 0.0
 
     def reader(self, scene: Scene) -> Reader:
-        """1 below, 0 above, between them what it was."""
         import numpy as np
 
         source, below, above = scene.places[self.of], np.float32(self.below), np.float32(self.above)
@@ -294,12 +273,10 @@ class Latch(SensorKind):
         return read
 
     def row(self, scene: Scene) -> Row:
-        """The inherited columns and the two thresholds, `low` and `high`."""
         return {**SensorKind.row(self, scene), "low": self.below, "high": self.above}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """1 below, 0 above, between them what it was."""
         for k in range(sensor.width):
             out, now, held = s.readings[sensor.start + k], s.readings[sensor.source + k], s.before[sensor.before + k]
             for p in range(n):
@@ -313,29 +290,25 @@ class Latch(SensorKind):
 class Reading(SensorKind):
     """One reading of a sensor that has several; the first is 1."""
 
-    reading: Annotated[int, COUNT]
-    of: Annotated[str, SENSOR]
+    reading: Count
+    of: SensorName
 
     circular = None
 
     def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
-        """A flaw where the source has not so many readings."""
         if self.reading <= (width := widths.get(self.of, 0)):
             return None
         has = f"{self.of} has {width} reading{'s' * (width != 1)}."
         return Flaw("no-such-reading", "reading", has, f"Write a number from 1 to {width}.")
 
     def reader(self, scene: Scene) -> Reader:
-        """A slice of all readings: the one of the source with that number."""
         place = scene.starts[self.of] + self.reading - 1
         return lambda number, now, before: now[place : place + 1]
 
     def row(self, scene: Scene) -> Row:
-        """The row of that reading, as `source`."""
         return {"source": scene.starts[self.of] + self.reading - 1}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """Copy that reading of the source."""
         for p in range(n):
             s.readings[sensor.start, p] = s.readings[sensor.source, p]

@@ -6,39 +6,47 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
 from mindrun.kinds.actuators.actuator import SIDE, ActuatorKind, Side
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Physical, Row, Scene
-from mindrun.numbers.quantity import POSITIVE, RATIO, Quantity, Reference
+from mindrun.numbers.quantity import Positive, Quantity, Ratio, Reference
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.numbers.arithmetic import COSINE, HALF, SINE, SPEED_X, SPEED_Y, SPIN, ZERO, F, X, Y, clamp
+    from mindrun.numbers.arithmetic import *
+
+
+class Signed(Physical):
+    """A measure of two directions: 0.5 is nothing, 1 is `range` or more in one, 0 in the other."""
+
+    __slots__ = ()
+
+    range: float
+
+    scaled = True
+    blank = 0.5
+
+    def gain(self, scene: Scene) -> float:
+        """0.5 / range."""
+        return 0.5 / self.range
 
 
 @kind("sensor", "speed")
-class Speed(Physical):
+class Speed(Signed):
     """Speed along the heading: 0.5 standing, 1 forward with `range` units a second or more, 0 backward.
 
     0.5 + 0.5 · speed / range; what the body slides aside does not count. Within `dead_zone` of 0.5 it reads 0.5.
     """
 
-    range: Annotated[float, POSITIVE] = 10.0
-    dead_zone: Annotated[float, RATIO] = 0.0
+    range: Positive = 10.0
+    dead_zone: Ratio = 0.0
 
-    scaled = True
     unit = "m/s"
-    blank = rest = still = 0.5
+    rest = still = 0.5
 
     def sees(self, actuator: ActuatorKind) -> bool:
-        """True of the motor of a car."""
         return actuator.drive == "motor"
-
-    def row(self, scene: Scene) -> Row:
-        """The inherited columns and the gain of a unit a second."""
-        return {**Physical.row(self, scene), "gain": 0.5 / self.range}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """0.5 + speed · gain."""
         out, x, y = s.readings[sensor.start], s.body[SPEED_X], s.body[SPEED_Y]
         for p in range(n):
             ahead = x[p] * s.heading[COSINE, p] + y[p] * s.heading[SINE, p]
@@ -47,7 +55,7 @@ class Speed(Physical):
 
 
 @kind("sensor", "odometer")
-class Odometer(Physical):
+class Odometer(Signed):
     """Speed of a wheel on the body's rim, as its encoder counts it: 0.5 standing, 1 forward with `range` units/s.
 
     0.5 + 0.5 · (distance a second) / range, 0 backward; the wheel rolls as its side of the body moves along the heading
@@ -55,23 +63,19 @@ class Odometer(Physical):
     """
 
     side: Annotated[Side, SIDE]
-    range: Annotated[float, POSITIVE] = 10.0
+    range: Positive = 10.0
 
-    scaled = True
     unit = "m/s"
-    blank = rest = still = 0.5
+    rest = still = 0.5
 
     def sees(self, actuator: ActuatorKind) -> bool:
-        """True of what drives on its side."""
         return actuator.is_motor and actuator.mounted == self.side
 
     def row(self, scene: Scene) -> Row:
-        """The gain of a unit a second, and the side as `part`: −1 left, 1 right."""
-        return {"gain": 0.5 / self.range, "part": 1 if self.side == "right" else -1}
+        return {**Signed.row(self, scene), "part": 1 if self.side == "right" else -1}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """0.5 + (speed ± spin · arm) · gain."""
         arm = t.world[0].side if sensor.part > 0 else -t.world[0].side
         out, x, y, spin = s.readings[sensor.start], s.body[SPEED_X], s.body[SPEED_Y], s.body[SPIN]
         for p in range(n):
@@ -83,25 +87,19 @@ TURNING = Quantity("an angle a second", {"deg": pi / 180}, low=pi / 1800, high=2
 
 
 @kind("sensor", "turn_rate")
-class TurnRate(Physical):
+class TurnRate(Signed):
     """How fast the robot turns, as a gyroscope says it: 0.5 not at all, 1 to the right with `range` deg/s, 0 left.
 
     0.5 − 0.5 · turning / range, counterclockwise positive. Within `dead_zone` of 0.5 it reads 0.5.
     """
 
     range: Annotated[float, TURNING] = pi
-    dead_zone: Annotated[float, RATIO] = 0.0
+    dead_zone: Ratio = 0.0
 
-    scaled = True
-    blank = rest = still = 0.5
-
-    def row(self, scene: Scene) -> Row:
-        """The inherited columns and the gain of a radian a second."""
-        return {**Physical.row(self, scene), "gain": 0.5 / self.range}
+    rest = still = 0.5
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """0.5 − spin · gain."""
         out, spin = s.readings[sensor.start], s.body[SPIN]
         for p in range(n):
             v = clamp(HALF - F(spin[p] * sensor.gain))
@@ -115,18 +113,16 @@ TRAIL_TICKS = 20  # over which the displacement is taken
 class Inertial(Physical):
     """Movement of the robot: its displacement over the last 20 ticks as a mean speed, 1 from `range` units/s on."""
 
-    range: Annotated[float, POSITIVE] = 1.0
-    dead_zone: Annotated[float, RATIO] = 0.0
+    range: Positive = 1.0
+    dead_zone: Ratio = 0.0
 
     still = 0.0
 
-    def row(self, scene: Scene) -> Row:
-        """The speed that reads 1 as a gain of the displacement."""
-        return {**Physical.row(self, scene), "gain": 1.0 / (TRAIL_TICKS * scene.tick * self.range)}
+    def gain(self, scene: Scene) -> float:
+        return 1.0 / (TRAIL_TICKS * scene.tick * self.range)
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """The displacement since the oldest place of the trail, as a share of `range`."""
         oldest = clock % TRAIL_TICKS
         out, x, y = s.readings[sensor.start], s.trail[2 * oldest], s.trail[2 * oldest + 1]
         for p in range(n):
@@ -139,26 +135,22 @@ Axis = Literal["x", "y"]
 
 
 @kind("sensor", "position")
-class Position(Physical):
+class Position(Signed):
     """Place of the robot's middle along an axis, as beacons tell it: 0.5 the origin, 1 from `range` units on.
 
     0.5 + 0.5 · x / range, or y, and 0 from −range on; the origin is the middle of an arena, y points north.
     """
 
     along: Annotated[Axis, Reference("axis", get_args(Axis))]
-    range: Annotated[float, POSITIVE] = 50.0
+    range: Positive = 50.0
 
-    scaled = True
     unit = "m"
-    blank = 0.5
 
     def row(self, scene: Scene) -> Row:
-        """The gain of a unit, and the axis as `part`, a row of the body."""
-        return {"gain": 0.5 / self.range, "part": get_args(Axis).index(self.along)}
+        return {**Signed.row(self, scene), "part": get_args(Axis).index(self.along)}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """0.5 + place · gain."""
         out, place = s.readings[sensor.start], s.body[sensor.part]
         for p in range(n):
             out[p] = clamp(HALF + F(place[p] * sensor.gain))

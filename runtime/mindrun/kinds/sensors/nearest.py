@@ -1,37 +1,16 @@
 """Sensors of a thing, of several the nearest: where it is, how far away, and how bright."""
 
 from math import inf
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.sensors.sensor import Physical, Ranging, Row, Scene
-from mindrun.numbers.quantity import LENGTH, POSITIVE, RATIO, SERVO, THING
+from mindrun.numbers.quantity import Length, Positive, Ratio, ServoName, ThingName
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.numbers.arithmetic import (
-        BOX_COLUMNS,
-        COSINE,
-        DISTANCE,
-        HALF,
-        LOOSE_ROWS,
-        ONE,
-        SINE,
-        SIZE,
-        TURN,
-        ZERO,
-        F,
-        X,
-        Y,
-        bearing,
-        box_of,
-        clamp,
-        nearest,
-        place_of,
-        sine_cosine,
-        size_of,
-    )
+    from mindrun.numbers.arithmetic import *
 
 
 @kind("sensor", "bearing")
@@ -44,10 +23,10 @@ class Bearing(Physical):
     `on` a servo, straight ahead is where that looks.
     """
 
-    of: Annotated[str, THING]
-    range: Annotated[float, LENGTH] = 0.0
-    dead_zone: Annotated[float, RATIO] = 0.0
-    on: Annotated[str, SERVO] = left_out("")
+    of: ThingName
+    range: Length = 0.0
+    dead_zone: Ratio = 0.0
+    on: ServoName = left_out("")
 
     circular = True
     scaled = True
@@ -55,12 +34,10 @@ class Bearing(Physical):
     is_about = staticmethod(lambda kind: True)  # whatever there is
 
     def row(self, scene: Scene) -> Row:
-        """The inherited columns, with an infinite range where none is given."""
         return {**Physical.row(self, scene), "range": self.range or inf}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """0.5 − atan2/2π in the body's frame."""
         out = s.readings[sensor.start]
         if sensor.things == 0 and sensor.boxes == 0:
             for p in range(n):
@@ -84,15 +61,14 @@ class Distance(Ranging):
     in it. Of an obstacle, a wall or a map it is to the nearest point, which has no size.
     """
 
-    of: Annotated[str, THING]
-    range: Annotated[float, POSITIVE] = 40.0
+    of: ThingName
+    range: Positive = 40.0
 
     remedy = "Let a task contain what it is about"
     is_about = staticmethod(lambda kind: True)  # whatever there is
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """The distance of the middles less what lies within the two rims, as a share of `range`."""
         out = s.readings[sensor.start]
         if sensor.things == 0 and sensor.boxes == 0:
             for p in range(n):
@@ -127,15 +103,14 @@ class Light(Physical):
     obstacle, a wall, or a box or ball of another name.
     """
 
-    of: Annotated[str, THING]
-    range: Annotated[float, POSITIVE] = 10.0
+    of: ThingName
+    range: Positive = 10.0
 
     near = 1
     remedy = "Let a task contain what it is about"
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """1 / (1 + (distance / range)²) of the nearest thing, and 0 in the shadow of anything solid."""
         out = s.readings[sensor.start]
         if sensor.things == 0:
             for p in range(n):

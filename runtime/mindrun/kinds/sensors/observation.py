@@ -6,7 +6,7 @@ from typing import Annotated, Any
 from mindrun.kinds.environment import Slot
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Flaw, Physical, Shape
-from mindrun.numbers.quantity import INDEX, NUMBER, SLOT, Span
+from mindrun.numbers.quantity import INDEX, Indices, PartName, Range
 
 
 @kind("sensor", "observation")
@@ -17,19 +17,17 @@ class Observation(Physical):
     them, of a `Tuple` its number. What is beyond the range reads as its end, and how often is told.
     """
 
-    observation: Annotated[tuple[int, ...], INDEX]
-    range: Annotated[Span, NUMBER]
-    part: Annotated[str, SLOT] = ""
+    observation: Indices
+    range: Range
+    part: PartName = ""
 
     scaled = True
 
     @property
-    def slot(self) -> Slot:
-        """The number of the observation that the arguments name, and its range."""
+    def slot(self) -> Slot:  # type: ignore[override]
         return Slot(self.part, self.observation, self.range)
 
     def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
-        """A flaw where its range has not two ends."""
         if self.slot.has_two_ends:
             return None
         hint = "Write the least and the greatest number that it will be: range -0.5 to 2."
@@ -48,25 +46,22 @@ class Observations(Physical):
     the name of the part goes before it, of a `Tuple` its number. All have one `range`.
     """
 
-    observations: Annotated[tuple[int, ...], INDEX]
+    observations: Indices
     to: Annotated[int, INDEX]
-    range: Annotated[Span, NUMBER]
-    part: Annotated[str, SLOT] = ""
+    range: Range
+    part: PartName = ""
 
     scaled = True
 
     @property
-    def slot(self) -> Slot:
-        """The numbers of the observation that the arguments name, and their range."""
+    def slot(self) -> Slot:  # type: ignore[override]
         return Slot(self.part, self.observations, self.range, last=self.to)
 
     @property
     def shape(self) -> Shape:
-        """One reading for each number."""
         return (max(1, self.to - self.observations[-1] + 1),)
 
     def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
-        """A flaw where it ends before it begins, or its range has not two ends."""
         if self.to < self.observations[-1]:
             hint = "Write the first number, then the last: observations 0 to 9."
             return Flaw("range-backwards", "to", "This range ends below its beginning.", hint)

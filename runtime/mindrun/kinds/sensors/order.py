@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Flaw, Row, Scene, SensorKind
-from mindrun.numbers.quantity import NUMBER, RATIO, Quantity, Span
+from mindrun.numbers.quantity import Number, Quantity, Range, Ratio
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.numbers.arithmetic import ONE, ZERO, F, seek, uniform
+    from mindrun.numbers.arithmetic import *
 
 MAX_CHOICES = 1000
 ONCE_TICKS = 1 << 62  # an order that is drawn anew after so many ticks is drawn once
@@ -28,10 +28,10 @@ class Order(SensorKind):
     a run begins, and anew `every` so long (0: never); the share `lost` of them reads `neutral`.
     """
 
-    order: Annotated[Span, NUMBER]
-    neutral: Annotated[float, NUMBER] = 0.0
+    order: Range
+    neutral: Number = 0.0
     every: Annotated[float, PAUSE] = 0.0
-    lost: Annotated[float, RATIO] = 0.0
+    lost: Ratio = 0.0
     timeout: Annotated[float, PAUSE] = 0.0
 
     is_given = is_order = True
@@ -45,11 +45,9 @@ class Order(SensorKind):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """One reading for each of several choices, else a single one."""
         return (self.choices,) if self.choices else ()
 
     def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
-        """A flaw where its range has not two ends, or its neutral is no order."""
         first, last = self.order.first, self.order.last
         if not first < last or self.order.by is not None:
             hint = "Write order 1 to 7 for one of seven, or order 0 to 1 for a number."
@@ -79,20 +77,16 @@ class Order(SensorKind):
         return replace(self, timeout=0.0)
 
     @property
-    def numbers(self) -> tuple[float, ...]:
+    def numbers(self) -> tuple[float, ...]:  # type: ignore[override]
         """The share that is lost, then what is read of those."""
         return (self.lost, *self.readings(self.neutral))
 
     def row(self, scene: Scene) -> Row:
-        """The number of ticks after which it is drawn anew."""
         return {"every": max(1, round(self.every / scene.tick)) if self.every else ONCE_TICKS}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """Draw this turn's order of the run's seed, the number of the sensor among orders and that of the turn alone.
-
-        So nothing else that is drawn depends on it, nor it on what happens.
-        """
+        """Draw this turn's order of the run's seed, the sensor's number among orders and that of the turn alone."""
         lost = t.numbers[sensor.number]
         for p in range(n):
             seek(s.active, p, s.seed[p], sensor.part, 2 * (s.tick[p] // sensor.every))

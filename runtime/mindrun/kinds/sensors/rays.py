@@ -1,32 +1,16 @@
 """Sensors that look along rays: at whatever is solid, and at one thing alone, as a line of a camera does."""
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.sensors.sensor import Ranging
 from mindrun.kinds.things.thing import WorldFacts
-from mindrun.numbers.quantity import ANGLE, POSITIVE, RATIO, SERVO, THING
+from mindrun.numbers.quantity import Angles, Positive, Ratio, ServoName, ThingName
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.numbers.arithmetic import (
-        COSINE,
-        HALF_X,
-        HALF_Y,
-        MAX_FLOAT32,
-        ONE,
-        SINE,
-        ZERO,
-        F,
-        X,
-        Y,
-        box_of,
-        clamp,
-        place_of,
-        sine_cosine,
-        size_of,
-    )
+    from mindrun.numbers.arithmetic import *
 
 
 @kind("sensor", "range_finder")
@@ -37,20 +21,18 @@ class RangeFinder(Ranging):
     `dead_zone` is 0.
     """
 
-    at: Annotated[tuple[float, ...], ANGLE] = (0.0,)
-    range: Annotated[float, POSITIVE] = 12.0
-    dead_zone: Annotated[float, RATIO] = 0.005
-    on: Annotated[str, SERVO] = left_out("")
+    at: Angles = (0.0,)
+    range: Positive = 12.0
+    dead_zone: Ratio = 0.005
+    on: ServoName = left_out("")
 
     looks = True
 
     def constant(self, world: WorldFacts) -> float | None:
-        """1 in a world where nothing is solid, else None."""
         return None if world.is_solid else 1.0
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """The distance along each ray, from the body's rim."""
         scale = ONE / F(sensor.range)
         for ray in range(sensor.width):
             out, far = s.readings[sensor.start + ray], s.sight[4 + sensor.ray + ray]
@@ -74,10 +56,10 @@ class Eye(Ranging):
     from where the servo looks that it is `on`. Of a box that can be pushed it sees the disc in it.
     """
 
-    of: Annotated[str, THING]
-    at: Annotated[tuple[float, ...], ANGLE] = (0.0,)
-    range: Annotated[float, POSITIVE] = 30.0
-    on: Annotated[str, SERVO] = left_out("")
+    of: ThingName
+    at: Angles = (0.0,)
+    range: Positive = 30.0
+    on: ServoName = left_out("")
 
     looks = True
     remedy = "Let a task contain what it is about"

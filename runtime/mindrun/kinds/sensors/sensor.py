@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Set
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from mindrun.kinds.environment import OfEnvironment
 from mindrun.kinds.registry import arguments, base, named_arguments
-from mindrun.kinds.things.about import AboutThing
-from mindrun.kinds.things.thing import WorldFacts
-from mindrun.numbers.expression import Formula
-from mindrun.numbers.quantity import ANGLE, RATIO, SENSOR, SERVO, TICKS
+from mindrun.kinds.things.thing import AboutThing, WorldFacts
+from mindrun.numbers.expression import Formula, named
+from mindrun.numbers.quantity import ANGLE, EXPRESSION, SENSOR, SERVO, Ratio, Ticks
 
 if TYPE_CHECKING:
     from mindrun.kinds.actuators.actuator import ActuatorKind
@@ -37,14 +36,6 @@ class Flaw(NamedTuple):
     field: str
     message: str
     hint: str
-
-
-class BatteryModel(NamedTuple):
-    """The charge with which a battery starts, its loss in a tick, and its gain in one where it charges; 1 is full."""
-
-    start: float
-    drain: float
-    charge: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +78,11 @@ class SensorKind(AboutThing, OfEnvironment):
     remembered = 0  # how many numbers the lanes keep of each of its readings
     blank, rest = 0.0, 0.0  # what it reads where there is nothing to measure, and in its dead zone
     dead_zone = 0.0
+    battery: Any = None  # the kind of sensor that says how the battery is that it reads
     still: float | None = None  # what it reads of a robot that stands, as it does when a run begins
+    spots: tuple[tuple[float, float], ...] = ()  # of the floor that its readings look at, x ahead and y to the left
+    sector = 0.0  # the angle, around each of its directions, in which it feels a touch; 0 where it feels none
+    numbers: tuple[float, ...] = ()  # that its lane reads beside its row: `t.numbers`, from `sensor.number` on
     remedy = "Give it a dead_zone below 0.5"  # for one that is constant
 
     @property
@@ -103,18 +98,19 @@ class SensorKind(AboutThing, OfEnvironment):
 
     @property
     def sources(self) -> tuple[str, ...]:
-        """All sensors and memories from which it is computed."""
-        return (self.source,) if self.source else ()
+        """All sensors and memories from which it is computed, each once."""
+        return named(self.formula) or ((self.source,) if self.source else ())
+
+    @property
+    def formula(self) -> Formula:
+        """The expression that it computes, in postfix order, with readings by their names; empty for none."""
+        found: Any = self.named(EXPRESSION)
+        return found or ()
 
     @property
     def servo(self) -> str:
         """The servo with which it turns, or whose direction it reads; empty for none."""
         return self.named(SERVO)
-
-    @property
-    def formula(self) -> Formula:
-        """The expression that it computes; empty where it computes none."""
-        return ()
 
     def goes_round(self, directions: Collection[str]) -> bool:
         """True if its reading is a direction, given the names of other sensors whose readings are."""
@@ -134,11 +130,6 @@ class SensorKind(AboutThing, OfEnvironment):
     def sees(self, actuator: ActuatorKind) -> bool:
         """True if it reads, of a robot off the ground, whether an actuator turns."""
         return False
-
-    @property
-    def battery(self) -> BatteryModel | None:
-        """The model of the battery that it reads; None where it reads none."""
-        return None
 
     @property
     def directions(self) -> tuple[float, ...]:
@@ -163,31 +154,21 @@ class SensorKind(AboutThing, OfEnvironment):
         return (-high, high) if high and self.blank == 0.5 else (0.0, high)
 
     @property
-    def spots(self) -> tuple[tuple[float, float], ...]:
-        """The points of the floor that it looks at, one for each reading: x ahead of the body, y to its left."""
-        return ()
-
-    @property
-    def sector(self) -> float:
-        """The angle, around each of its directions, in which it feels a touch; 0 where it feels none."""
-        return 0.0
-
-    @property
     def taught(self) -> SensorKind:
         """The kind without what only a robot asks for."""
         return self
 
-    @property
-    def numbers(self) -> tuple[float, ...]:
-        """The numbers that its lane function reads beside its row: `t.numbers`, from `sensor.number` on."""
-        return ()
-
     def row(self, scene: Scene) -> Row:
-        """The kind's own columns of the lanes' table: its source, and arguments that are TOLD, a period in ticks."""
+        """The kind's own columns of the lanes' table: its source, its gain, and arguments that are TOLD."""
         plain = (each.field for each in arguments(type(self)) if each.shape == "one" and each.field in TOLD)
         told = {name: getattr(self, name) for name in plain}
         told |= {"period": told["period"] / scene.tick} if "period" in told else {}
-        return told | ({"source": scene.starts[self.source]} if self.source else {})
+        gain = self.gain(scene)
+        return told | ({"source": scene.starts[self.source]} if self.source else {}) | ({"gain": gain} if gain else {})
+
+    def gain(self, scene: Scene) -> float:
+        """The factor of what is measured, or what is taken off it, where its lane function asks for one; else 0."""
+        return 0.0
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
@@ -227,10 +208,10 @@ class Physical(SensorKind):
     `delay` ticks old.
     """
 
-    noise: Annotated[float, RATIO] = 0.0
-    lost: Annotated[float, RATIO] = 0.0
-    every: Annotated[int, TICKS] = 1
-    delay: Annotated[int, TICKS] = 0
+    noise: Ratio = 0.0
+    lost: Ratio = 0.0
+    every: Ticks = 1
+    delay: Ticks = 0
 
     is_given = True
     varying = ("noise", "lost", "delay")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import floor, isclose, pi
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -14,38 +15,44 @@ from mindrun.numbers.trigonometry import sine
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.numbers.arithmetic import F, sine_cosine
+    from mindrun.numbers.arithmetic import *
     from mindrun.numbers.arrays import Reader, Readings
 
 
-@kind("sensor", "clock")
-class Clock(SensorKind):
-    """A saw tooth: from 0 to 1 in every period, then 0 again; t/period without its whole part."""
+@dataclass(frozen=True, slots=True)
+class Wave(SensorKind):
+    """What goes by time alone: its reading at t/period without its whole part, t in seconds since the first tick."""
 
     period: Annotated[float, SECONDS]
 
-    still = 0.0
-    remedy = "Give it a period of more than a tick"
-
-    def constant(self, world: WorldFacts) -> float | None:
-        """0 where each tick begins a period, else None."""
-        return 0.0 if self.period == world.tick else None
+    def at(self, turned: float) -> float:
+        """The reading after a share of the period."""
+        return turned
 
     def reader(self, scene: Scene) -> Reader:
-        """t/period without its whole part, t in seconds since the first tick."""
         import numpy as np
 
         period = self.period / scene.tick
 
         def read(number: int, now: Readings, before: Readings | None) -> np.float32:
             turned = number / period
-            return np.float32(turned - floor(turned))
+            return np.float32(self.at(turned - floor(turned)))
 
         return read
 
+
+@kind("sensor", "clock")
+class Clock(Wave):
+    """A saw tooth: from 0 to 1 in every period, then 0 again; t/period without its whole part."""
+
+    still = 0.0
+    remedy = "Give it a period of more than a tick"
+
+    def constant(self, world: WorldFacts) -> float | None:
+        return 0.0 if self.period == world.tick else None
+
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """t/T − ⌊t/T⌋."""
         out = s.readings[sensor.start]
         for p in range(n):
             turned = s.tick[p] / sensor.period
@@ -53,34 +60,21 @@ class Clock(SensorKind):
 
 
 @kind("sensor", "sine")
-class Sine(SensorKind):
+class Sine(Wave):
     """A wave: 0.5 + 0.5 sin(2πt/period)."""
-
-    period: Annotated[float, SECONDS]
 
     still = 0.5
     remedy = "Give it a period of more than two ticks"
 
     def constant(self, world: WorldFacts) -> float | None:
-        """0.5 where every tick meets the wave there: it lasts one tick or two, or goes round in a part of one."""
         halves = 2 * world.tick / self.period
         return 0.5 if halves > 0.5 and isclose(halves, round(halves)) else None
 
-    def reader(self, scene: Scene) -> Reader:
-        """0.5 + 0.5 sin(2πt/period), t in seconds since the first tick."""
-        import numpy as np
-
-        period = self.period / scene.tick
-
-        def read(number: int, now: Readings, before: Readings | None) -> np.float32:
-            turned = number / period
-            return np.float32(0.5 + 0.5 * sine(2 * pi * (turned - floor(turned))))
-
-        return read
+    def at(self, turned: float) -> float:
+        return 0.5 + 0.5 * sine(2 * pi * turned)
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """0.5 + 0.5 sin(2πt/T)."""
         out = s.readings[sensor.start]
         for p in range(n):
             turns = s.tick[p] / sensor.period

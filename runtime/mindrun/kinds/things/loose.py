@@ -3,34 +3,34 @@
 from dataclasses import dataclass, replace
 from typing import Annotated
 
-from mindrun.kinds.bodies.body import DAMPING, DENSITY
+from mindrun.kinds.bodies.body import Damping, Density
 from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.aim import SPEED, Aiming
 from mindrun.kinds.things.thing import (
     DEFAULT_DISTANCE,
     DEFAULT_SIZE,
     MOVES,
-    OUTCOME,
+    SPEED,
     STAYS,
+    Aiming,
     Alternatives,
-    Outcome,
+    Becomes,
     ThingKind,
     ThingMistake,
 )
 from mindrun.numbers.quantity import (
-    COORDINATE,
-    COUNT,
     DISTANCE,
     FARTHEST_UNITS,
-    LENGTH,
     POSITIVE,
-    RATIO,
     THING,
-    Place,
+    Count,
+    Lengths,
+    Places,
     Quantity,
+    Ratio,
     Region,
     Span,
+    ThingName,
 )
 
 LOOSE_SIZE = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1000.0)
@@ -55,18 +55,18 @@ class Loose(ThingKind, Aiming):
     """
 
     size: Annotated[Span, LOOSE_SIZE] = DEFAULT_SIZE
-    density: Annotated[float, DENSITY] = 0.5
-    friction: Annotated[float, RATIO] = DEFAULT_FRICTION
-    damping: Annotated[float, DAMPING] = 5.0
-    away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
-    at: Annotated[tuple[Place, ...], COORDINATE] = ()
-    or_: Annotated[Alternatives, COORDINATE] = left_out(())
+    density: Density = 0.5
+    friction: Ratio = DEFAULT_FRICTION
+    damping: Damping = 5.0
+    away: Lengths = DEFAULT_DISTANCE
+    at: Places = ()
+    or_: Alternatives = left_out(())
     within: Annotated[Region, THING] = left_out("")
-    count: Annotated[int, COUNT] = 1
-    reached: Annotated[Outcome, OUTCOME] = STAYS
-    delivered: Annotated[Outcome, OUTCOME] = MOVES
-    seeks: Annotated[str, THING] = left_out("")
-    flees: Annotated[str, THING] = left_out("")
+    count: Count = 1
+    reached: Becomes = STAYS
+    delivered: Becomes = MOVES
+    seeks: ThingName = left_out("")
+    flees: ThingName = left_out("")
     speed: Annotated[float, SPEED] = left_out(DEFAULT_SPEED)
     thrust: Annotated[float, FORCE] = left_out(DEFAULT_THRUST)
     range: Annotated[float, DISTANCE] = left_out(FARTHEST_UNITS)
@@ -77,10 +77,6 @@ class Loose(ThingKind, Aiming):
     can_be_delivered = True
 
     def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
-        """An error where it is placed so near that the robot would be in it, or where no thing could be.
-
-        Or where it says how it drives itself, and has no aim.
-        """
         if mistake := self.aim_mistake():
             return mistake
         if not self.thing and (self.speed, self.thrust) != (DEFAULT_SPEED, DEFAULT_THRUST):
@@ -113,7 +109,7 @@ class LooseBox(Loose):
 class Ball(Loose):
     """A solid disc of diameter `size` that can be pushed, and rolls on for a while; all else is as of a box."""
 
-    density: Annotated[float, DENSITY] = 0.2
-    damping: Annotated[float, DAMPING] = 1.0
+    density: Density = 0.2
+    damping: Damping = 1.0
 
     is_round = True

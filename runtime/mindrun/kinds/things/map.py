@@ -33,12 +33,10 @@ class Map(ThingKind):
     unplaceable = "Draw walls with #, and write another letter for what stands there."
 
     def obstacles(self, scene: SceneKind | None) -> int:
-        """The number of rectangles that its walls make."""
         return len(_rectangles(self.from_))
 
     @property
-    def walls(self) -> tuple[Rectangle, ...]:
-        """The rectangles of its walls: `#` side by side are one."""
+    def walls(self) -> tuple[Rectangle, ...]:  # type: ignore[override]
         found = []
         for column, row, wide, high in _rectangles(self.from_):
             (x, y), (to_x, to_y) = self._place(column, row), self._place(column + wide - 1, row + high - 1)
@@ -47,13 +45,11 @@ class Map(ThingKind):
         return tuple(found)
 
     @property
-    def drawing(self) -> Lines:
-        """The lines of its file."""
+    def drawing(self) -> Lines:  # type: ignore[override]
         return self.from_
 
     @property
-    def letters(self) -> Mapping[str, tuple[Place, ...]]:
-        """The places at which each letter stands, line by line."""
+    def letters(self) -> Mapping[str, tuple[Place, ...]]:  # type: ignore[override]
         found: dict[str, list[Place]] = {}
         for row, line in enumerate(self.from_):
             for column, letter in enumerate(line):
@@ -67,7 +63,6 @@ class Map(ThingKind):
         return self.cell * (column - (columns - 1) / 2), self.cell * ((rows - 1) / 2 - row)
 
     def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
-        """An error where its lines differ in length, have no floor, are too many or do not fit into the arena."""
         columns = max(map(len, self.from_), default=0)
         for number, line in enumerate(self.from_, 1):
             if len(line) != columns:

@@ -17,7 +17,7 @@ from mindrun.kinds.things.thing import (
     ThingKind,
     ThingMistake,
 )
-from mindrun.numbers.quantity import COORDINATE, LENGTH, Place, Quantity, Span
+from mindrun.numbers.quantity import Length, Lengths, Place, Places, Quantity
 
 COUNT = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
 MIDDLE_UNITS: tuple[Place, ...] = ((0.0, 0.0),)  # of a grid
@@ -31,13 +31,13 @@ class Obstacle(ThingKind):
     Each stands up to `jitter` off its point, both ways along both axes.
     """
 
-    size: Annotated[Span, LENGTH] = DEFAULT_SIZE
-    grid: Annotated[float, LENGTH] = 0.0
-    jitter: Annotated[float, LENGTH] = 0.0
+    size: Lengths = DEFAULT_SIZE
+    grid: Length = 0.0
+    jitter: Length = 0.0
     count: Annotated[int, COUNT] = 0
-    away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
-    at: Annotated[tuple[Place, ...], COORDINATE] = ()
-    or_: Annotated[Alternatives, COORDINATE] = left_out(())
+    away: Lengths = DEFAULT_DISTANCE
+    at: Places = ()
+    or_: Alternatives = left_out(())
 
     unplaceable = "Write a count of as many as the map draws, and neither a place nor a grid."
     is_obstacle = True
@@ -52,12 +52,10 @@ class Obstacle(ThingKind):
         return 0, 0
 
     def obstacles(self, scene: SceneKind | None) -> int:
-        """The number of obstacles: one at each point of its grid, its count, or one at each place."""
         columns, rows = self.grid_lines(scene)
         return columns * rows if self.grid else self.count or len(self.at)
 
     def standing(self, scene: SceneKind | None, may: bool = False) -> Iterable[Rectangle]:
-        """Squares that the smallest ones cover wherever jitter moves them; with `may`, all that the largest can."""
         least, most = sorted((self.size.first, self.size.last))
         half = most / 2 + self.jitter if may else least / 2 - self.jitter
         columns, rows = self.grid_lines(scene) if self.grid else (1, 1)
@@ -70,11 +68,9 @@ class Obstacle(ThingKind):
             )
 
     def at_places(self, places: tuple[Place, ...]) -> "Obstacle | None":
-        """The obstacles at the places that a map draws; None where it says where it is, or has another count."""
         return None if self.spots or self.grid or self.count != len(places) else replace(self, at=places, count=0)
 
     def rows(self, scene: SceneKind) -> Iterable[Row]:
-        """A grid, which has a single point where it stands at a place, or a count."""
         columns, rows = (1, 1) if self.at else self.grid_lines(scene)
         count = 0 if self.grid or self.at else self.count
         grid = {"grid": self.grid, "jitter": self.jitter, "columns": columns, "rows": rows, "count": count}
@@ -83,7 +79,6 @@ class Obstacle(ThingKind):
         return [{**grid, "x": x, "y": y} for x, y in self.at or MIDDLE_UNITS]
 
     def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
-        """An error where it is not one of a count, a place or a grid in an arena, or makes too many."""
         if self.spots and (self.grid or self.count):
             hint = "Write at and its place, or a count, or a grid."
             return ThingMistake("place-for-many", "Several things cannot stand at one place.", hint)

@@ -3,22 +3,27 @@
 from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, replace
 from math import hypot, inf
+from types import MappingProxyType
 from typing import Annotated, Literal, NamedTuple, Protocol, get_args
 
 from mindrun.kinds.registry import arguments, base, kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.numbers.quantity import (
     COORDINATE,
-    COUNT,
-    LENGTH,
+    FARTHEST_UNITS,
+    POSITIVE,
     THING,
     UNSAID,
+    Count,
+    Lengths,
     Place,
+    Places,
     Reference,
     Region,
     Span,
 )
 
+OR = " or "  # between the names of the things that a sensor is about alike
 ROBOT = "robot"  # the name by which a thing means the robot
 WITHIN = "within"  # the argument of a thing that names the zone in which it is placed
 DEFAULT_SIZE = Span(1.0, 1.0)
@@ -27,14 +32,16 @@ DEFAULT_DISTANCE = UNSAID  # as far away as its scene says
 Outcome = Literal["stays", "moves", "vanishes"]
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 OUTCOME = Reference("outcome", OUTCOMES)
+Becomes = Annotated[Outcome, OUTCOME]  # what becomes of a thing
 STAYS: Outcome = "stays"
 MOVES: Outcome = "moves"
 VANISHES: Outcome = "vanishes"
 
 MAX_OBSTACLES, MAX_THINGS = 2500, 100  # in one world, which looks at all of its things in every tick
 
+SPEED = replace(POSITIVE, name="a speed in world units per second", high=1e4)
 Row = Mapping[str, float]  # columns of the lanes' table of obstacles
-Alternatives = tuple[tuple[Place, ...], ...]  # each a place, or the places of a way
+Alternatives = Annotated[tuple[tuple[Place, ...], ...], COORDINATE]  # each a place, or the places of a way
 
 
 class Rectangle(NamedTuple):
@@ -57,6 +64,13 @@ class ThingMistake(NamedTuple):
     code: str
     message: str
     hint: str
+
+
+def outside(scene: SceneKind | None, places: Iterable[Place], extent: float, hint: str) -> ThingMistake | None:
+    """The error where something of half size `extent` would not be inside a scene at each of these places."""
+    if scene is None or all(scene.has_room(place, extent) for place in places):
+        return None
+    return ThingMistake("outside-arena", "That is not inside the arena.", hint)
 
 
 class WorldFacts(Protocol):
@@ -116,6 +130,9 @@ class ThingKind:
     is_round = False  # its outline: a disc, not a square
     unplaceable = "Leave its place and its count out: the map says both."  # what to do where a map cannot place it
     least_distance = 10.0  # from the robot, in world units, where walls keep it near
+    drawing: tuple[str, ...] = ()  # the lines of the text that it is drawn in
+    letters: Mapping[str, Places] = MappingProxyType({})  # the places of things that it draws, by their letters
+    walls: tuple[Rectangle, ...] = ()  # that it fills in the same places in every run
 
     @property
     def places(self) -> tuple[Place, ...]:
@@ -169,21 +186,6 @@ class ThingKind:
         """Rectangles that it fills in every run, or with `may` in any; `scene` is None where that is not known."""
         return self.walls
 
-    @property
-    def walls(self) -> tuple[Rectangle, ...]:
-        """Rectangles that it fills in the same places in every run."""
-        return ()
-
-    @property
-    def drawing(self) -> tuple[str, ...]:
-        """The lines of the text that it is drawn in."""
-        return ()
-
-    @property
-    def letters(self) -> Mapping[str, tuple[Place, ...]]:
-        """The places of things that it draws, by their letters."""
-        return {}
-
     def at_places(self, places: tuple[Place, ...]) -> "ThingKind | None":
         """The thing at the places that a map draws; None where its own line or its kind says otherwise."""
         is_free = not (self.is_obstacle or self.spots or self.within) and self.count in (1, len(places))
@@ -212,10 +214,8 @@ class ThingKind:
         elif self.count > 1 and self.count != len(self.at):
             hint = "Leave the count out, or the place."
             return ThingMistake("place-for-many", "Several things cannot stand at one place.", hint)
-        if scene is None or all(scene.has_room(place, self.largest / 2) for place in self.spots):
-            return None
         hint = "Write a place that is in it with all of the thing; 0 0 is the middle."
-        return ThingMistake("outside-arena", "That is not inside the arena.", hint)
+        return outside(scene, self.spots, self.largest / 2, hint)
 
     def _choice_mistake(self) -> ThingMistake | None:
         """An error where the first of its alternatives is missing, one is several places, or all are too few."""
@@ -238,11 +238,8 @@ class ThingKind:
             return ThingMistake("not-a-place", "A rectangle has two corners.", hint)
         (left, below), (right, above) = self.within
         middle = min(max(0.0, left), right), min(max(0.0, below), above)  # of the arena, or as near as it may be
-        corners = all(scene is None or scene.has_room(corner, 0.0) for corner in self.within)
-        if scene is None or (corners and scene.has_room(middle, self.largest / 2)):
-            return None
         hint = "Write corners that are in it, or on its border, so that the thing has room; 0 0 is the middle."
-        return ThingMistake("outside-arena", "That is not inside the arena.", hint)
+        return outside(scene, self.within, 0.0, hint) or outside(scene, (middle,), self.largest / 2, hint)
 
     @staticmethod
     def accepts(argument: str, kind: "type[ThingKind]") -> bool:
@@ -263,17 +260,80 @@ class ThingKind:
         return ThingMistake("too-far-away", "Nothing in this arena is so far from the robot.", hint)
 
 
+class AboutThing:
+    """A sensor, event or measure: it may be about a thing of the task, of any kind but obstacles unless it says."""
+
+    __slots__ = ()
+
+    @property
+    def thing(self) -> str:
+        """The name of the thing that it is about, or several with OR between, as its argument says; empty for none."""
+        return self.named(THING)
+
+    @property
+    def things(self) -> tuple[str, ...]:
+        """The names of all things that it is about alike: a sensor may have several; none where it has none."""
+        return tuple(filter(None, self.thing.split(OR)))
+
+    @property
+    def other(self) -> str:
+        """The name of the second thing that it is about; empty where it has none, and for the robot."""
+        named = [getattr(self, each.field) for each in arguments(type(self)) if each.type is THING]
+        return "".join(named[1:2])
+
+    def named(self, reference: Reference) -> str:
+        """The value of its first argument of a type; empty where it has none."""
+        return next((getattr(self, each.field) for each in arguments(type(self)) if each.type is reference), "")
+
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """True if it can be about things of a kind."""
+        return not kind.is_obstacle
+
+    @classmethod
+    def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:
+        """True if an argument of it can name things of a kind."""
+        return cls.is_about(kind)
+
+
+class Aiming(AboutThing):
+    """A thing that may go to the robot, or to the nearest thing of a name, or away from it, within its `range`."""
+
+    __slots__ = ()
+
+    seeks = ""
+    flees = ""
+    range = FARTHEST_UNITS
+
+    @property
+    def thing(self) -> str:
+        return self.seeks or self.flees
+
+    def aim_mistake(self) -> ThingMistake | None:
+        """An error where it has two aims, or a distance without one."""
+        aims = [each for each in ("along", "seeks", "flees") if getattr(self, each, ())]
+        if len(aims) > 1:
+            hint = f"Leave all but one of {' and '.join(aims)} out."
+            return ThingMistake("two-aims", "It can go one way at a time.", hint)
+        if self.range != FARTHEST_UNITS and not self.thing:
+            hint = "Write seeks or flees, and of what: flees robot range 10."
+            return ThingMistake(
+                "aimless-distance", "A distance says when it seeks or flees, and it does neither.", hint
+            )
+        return None
+
+
 @dataclass(frozen=True, slots=True)
 class Placed(ThingKind):
     """A thing that touches nothing, and stays in its place until it is reached."""
 
-    size: Annotated[Span, LENGTH] = DEFAULT_SIZE
-    away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
-    at: Annotated[tuple[Place, ...], COORDINATE] = ()
-    or_: Annotated[Alternatives, COORDINATE] = left_out(())
+    size: Lengths = DEFAULT_SIZE
+    away: Lengths = DEFAULT_DISTANCE
+    at: Places = ()
+    or_: Alternatives = left_out(())
     within: Annotated[Region, THING] = left_out("")
-    count: Annotated[int, COUNT] = 1
-    reached: Annotated[Outcome, OUTCOME] = STAYS
+    count: Count = 1
+    reached: Becomes = STAYS
 
 
 @kind("content", "item")
@@ -284,7 +344,7 @@ class Item(Placed):
     next size of its schedule, or vanishes for the rest of the run.
     """
 
-    delivered: Annotated[Outcome, OUTCOME] = MOVES
+    delivered: Becomes = MOVES
 
     can_be_held = True
     can_be_delivered = True

@@ -7,29 +7,30 @@ from typing import Annotated, Literal, get_args
 
 from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.aim import SPEED, Aiming
 from mindrun.kinds.things.thing import (
     DEFAULT_DISTANCE,
     DEFAULT_SIZE,
-    OUTCOME,
+    SPEED,
     STAYS,
+    Aiming,
     Alternatives,
-    Outcome,
+    Becomes,
     ThingKind,
     ThingMistake,
+    outside,
 )  # fmt: skip
 from mindrun.numbers.quantity import (
     ANGLE,
-    COORDINATE,
-    COUNT,
     DISTANCE,
     FARTHEST_UNITS,
-    LENGTH,
     THING,
+    Count,
+    Lengths,
     Place,
+    Places,
     Reference,
     Region,
-    Span,
+    ThingName,
 )
 
 TURNING = replace(ANGLE, low=0.0)
@@ -53,19 +54,19 @@ class Walker(ThingKind, Aiming):
     from middle to middle. Where none is within its `range`, or something is in its way, it wanders.
     """
 
-    size: Annotated[Span, LENGTH] = DEFAULT_SIZE
+    size: Lengths = DEFAULT_SIZE
     speed: Annotated[float, SPEED] = 1.0
     turning: Annotated[float, TURNING] = pi / 2
-    along: Annotated[tuple[Place, ...], COORDINATE] = ()
-    away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
-    at: Annotated[tuple[Place, ...], COORDINATE] = ()
-    or_: Annotated[Alternatives, COORDINATE] = left_out(())
+    along: Places = ()
+    away: Lengths = DEFAULT_DISTANCE
+    at: Places = ()
+    or_: Alternatives = left_out(())
     from_: Annotated[Begin, BEGIN] = left_out(START)
     within: Annotated[Region, THING] = left_out("")
-    count: Annotated[int, COUNT] = 1
-    reached: Annotated[Outcome, OUTCOME] = STAYS
-    seeks: Annotated[str, THING] = left_out("")
-    flees: Annotated[str, THING] = left_out("")
+    count: Count = 1
+    reached: Becomes = STAYS
+    seeks: ThingName = left_out("")
+    flees: ThingName = left_out("")
     range: Annotated[float, DISTANCE] = left_out(FARTHEST_UNITS)
 
     varying = ("speed", "turning")
@@ -79,29 +80,21 @@ class Walker(ThingKind, Aiming):
 
     @property
     def spots(self) -> tuple[Place, ...]:
-        """Every place of its ways, or where it has none, all at which it may begin."""
         return (*(self.along or self.at), *(place for each in self.or_ for place in each))
 
     @property
     def options(self) -> tuple[Place, ...]:
-        """The places of which one is drawn, where it has no ways."""
         return self.spots if self.or_ and not self.along else ()
 
     @property
     def ways(self) -> Alternatives:  # type: ignore[override]
-        """The ways of which one is drawn for each; none where it wanders."""
         return (self.along, *self.or_) if self.along else ()
 
     @property
     def wanders(self) -> bool:  # type: ignore[override]
-        """True if it has no way."""
         return not self.along
 
     def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
-        """An error where its way goes nowhere or leaves the arena, or has too few places for all to begin at.
-
-        Or where it has two aims, or a distance without one.
-        """
         if mistake := self.aim_mistake():
             return mistake
         if not self.along:
@@ -117,7 +110,5 @@ class Walker(ThingKind, Aiming):
         if self.from_ == START and self.count > min(map(len, self.ways)):
             hint = f"Each begins at another place of the way: name {self.count} places, or write a smaller count."
             return ThingMistake("place-for-many", "Several things cannot stand at one place.", hint)
-        if scene is None or all(scene.has_room(place, self.largest / 2) for place in self.spots):
-            return None
         hint = "Write places that are in it with all of the thing; 0 0 is the middle."
-        return ThingMistake("outside-arena", "That is not inside the arena.", hint)
+        return outside(scene, self.spots, self.largest / 2, hint)

@@ -7,8 +7,8 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import Rectangle, ThingKind, ThingMistake
-from mindrun.numbers.quantity import COORDINATE, LENGTH, Place
+from mindrun.kinds.things.thing import Rectangle, ThingKind, ThingMistake, outside
+from mindrun.numbers.quantity import LENGTH, Places
 
 THICKNESS = replace(LENGTH, low=0.01, high=1000.0)
 
@@ -17,7 +17,7 @@ THICKNESS = replace(LENGTH, low=0.01, high=1000.0)
 class Wall(ThingKind):
     """A solid wall along the places that `from` names, one after the other; each stretch lies along an axis."""
 
-    from_: Annotated[tuple[Place, ...], COORDINATE]
+    from_: Places
     thickness: Annotated[float, THICKNESS] = 1.0
 
     is_obstacle = True
@@ -25,12 +25,10 @@ class Wall(ThingKind):
     unplaceable = "Draw walls with #, and write another letter for what stands there."
 
     def obstacles(self, scene: SceneKind | None) -> int:
-        """The number of its stretches, each a rectangle."""
         return len(self.from_) - 1
 
     @property
-    def walls(self) -> tuple[Rectangle, ...]:
-        """A rectangle for each stretch; where one goes on into another they fill the corner."""
+    def walls(self) -> tuple[Rectangle, ...]:  # type: ignore[override]
         return tuple(self._stretches())
 
     def _stretches(self) -> Iterator[Rectangle]:
@@ -45,7 +43,6 @@ class Wall(ThingKind):
                 yield Rectangle(x, (low + high) / 2, half, (high - low) / 2)
 
     def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
-        """An error where a stretch goes nowhere, or not along an axis, or leaves the arena."""
         if len(self.from_) < 2 or any(place == next_ for place, next_ in pairwise(self.from_)):
             hint = "Write where it begins and where it ends: wall from -20 10 to 5 10."
             return ThingMistake("endless-wall", "This wall does not go anywhere.", hint)
@@ -53,7 +50,4 @@ class Wall(ThingKind):
             if x != to_x and y != to_y:
                 hint = f"Make it of walls along the axes: wall from {x:g} {y:g} to {to_x:g} {y:g} to {to_x:g} {to_y:g}."
                 return ThingMistake("slanting-wall", "This wall does not lie along an axis.", hint)
-        if scene is None or all(scene.has_room(place, 0.0) for place in self.from_):
-            return None
-        hint = "Write places that are in it, or on its border; 0 0 is the middle."
-        return ThingMistake("outside-arena", "That is not inside the arena.", hint)
+        return outside(scene, self.from_, 0.0, "Write places that are in it, or on its border; 0 0 is the middle.")

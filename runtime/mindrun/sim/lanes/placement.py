@@ -6,7 +6,7 @@ the same world. Everything is placed clear of everything else, with room for the
 
 import numpy as np
 
-from mindrun.graph.beginning import meets_robot
+from mindrun.graph.tasks import meets_robot
 from mindrun.numbers.arithmetic import (
     ANGLE,
     BOX_COLUMNS,

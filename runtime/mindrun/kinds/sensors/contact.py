@@ -1,32 +1,75 @@
-"""Sensors of what lies on the floor under the robot."""
+"""Sensors that say 1 or 0 of a thing: the claw can take it or holds it, the robot or a point of it is over it."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Begin, Bounds, Physical
-from mindrun.numbers.quantity import THING, Quantity
+from mindrun.kinds.things.thing import WorldFacts
+from mindrun.numbers.quantity import Quantity, ThingName
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
-    from mindrun.numbers.arithmetic import COSINE, ONE, SINE, ZERO, X, Y, inside, place_of, size_of
+    from mindrun.numbers.arithmetic import *
+
+
+@kind("sensor", "contact")
+class Contact(Physical):
+    """1 while the thing, or one of its name, is in the claw's reach, else 0."""
+
+    of: ThingName
+
+    near = 1
+    # What a claw can take, push or catch.
+    is_about = staticmethod(lambda kind: kind.can_be_held or kind.is_loose or kind.walks)
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        world, out = t.world[0], s.readings[sensor.start]
+        for p in range(n):
+            out[p] = ZERO
+        for i in range(sensor.thing, sensor.thing + sensor.things):
+            for p in range(n):
+                there = in_claw(s.body, s.heading, s.things, world.front, world.claw, i, p)
+                out[p] = ONE if there else out[p]
+
+
+@kind("sensor", "held")
+class Held(Physical):
+    """1 while the claw holds the thing, or one of its name, else 0."""
+
+    of: ThingName
+
+    near = 1
+    remedy = "Let a skill that acts drive a gripper"
+    is_about = staticmethod(lambda kind: kind.can_be_held)  # what a claw can take
+
+    def constant(self, world: WorldFacts) -> float | None:
+        return Physical.constant(self, world) if world.can_hold else 0.0
+
+    def first(self, begin: Begin) -> Bounds | None:
+        return None if self.noise else (0.0, 0.0)
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        for p in range(n):
+            k = s.held[p] - sensor.thing
+            s.readings[sensor.start, p] = ONE if k >= 0 and k < sensor.things else ZERO
 
 
 @kind("sensor", "inside")
 class Inside(Physical):
     """1 while the robot's centre is inside the thing, or one of its name, else 0."""
 
-    of: Annotated[str, THING]
+    of: ThingName
 
     is_about = staticmethod(lambda kind: kind.is_area)  # what lies on the floor
 
     def first(self, begin: Begin) -> Bounds | None:
-        """1 where the robot begins inside of the thing, 0 where not; None where noise hides that, or it is drawn."""
         there = {None if self.noise else begin.is_within(thing) for thing in self.things}
         is_in = True if True in there else None if None in there else False
         return None if is_in is None else (float(is_in), float(is_in))
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """1 where the robot's centre is in the square of the thing."""
         out = s.readings[sensor.start]
         for p in range(n):
             out[p] = ZERO
@@ -46,7 +89,7 @@ class Floor(Physical):
     They stand on a bar across the robot, `ahead` of its middle; `at` says how far to the left of the middle each is.
     """
 
-    of: Annotated[str, THING]
+    of: ThingName
     at: Annotated[tuple[float, ...], OFFSET] = (0.0,)
     ahead: Annotated[float, OFFSET] = 0.0
 
@@ -54,18 +97,16 @@ class Floor(Physical):
     is_about = staticmethod(lambda kind: not kind.is_solid)  # what can lie on the floor
 
     @property
-    def spots(self) -> tuple[tuple[float, float], ...]:
-        """The point of each reading on the bar: x ahead of the body's middle, y to its left."""
+    def spots(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
         return tuple((self.ahead, left) for left in self.at)
 
     @property
-    def numbers(self) -> tuple[float, ...]:
+    def numbers(self) -> tuple[float, ...]:  # type: ignore[override]
         """The distance of the bar ahead of the middle, then the distance of each point to the left."""
         return self.ahead, *self.at
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """1 where a point of the body's frame, turned into the world, lies on one of the things."""
         ahead = t.numbers[sensor.number]
         for k in range(sensor.width):
             out, left = s.readings[sensor.start + k], t.numbers[sensor.number + 1 + k]
