@@ -1,4 +1,11 @@
-"""`mindc build`: a mind with its weights in one file, for `python -m mindrun`."""
+"""`mindc build`: a mind with its weights in one file, for `python -m mindrun`.
+
+Examples:
+  mindc build collect.mind -o collect.bundle
+  mindc build collect.mind -o avoid.bundle --master Avoid
+  mindc build collect.mind -o collect.bundle --json
+  mindc build ball.mind --robot robot.yaml -o ball.bundle
+"""
 
 from __future__ import annotations
 
@@ -11,9 +18,20 @@ import click
 from mindrun.errors import MindError
 
 from mindlang.cli._diagnostic_printer import print_report
-from mindlang.cli._options import PATH, SKILLS, named, written
-from mindlang.cli._terminal import FINDINGS, MISUSE, complain, console, fail, load_compiled, print_json, writing
-from mindlang.compiler.diagnostic import did_you_mean, listed
+from mindlang.cli._options import PATH, SKILLS, json_flag, named, quiet_flag, written
+from mindlang.cli._terminal import (
+    FINDINGS,
+    MISUSE,
+    complain,
+    console,
+    fail,
+    is_asked,
+    known_skills,
+    load_compiled,
+    print_json,
+    writing,
+)
+from mindlang.compiler.diagnostic import listed
 
 if TYPE_CHECKING:
     from mindrun.graph.graph import Graph
@@ -22,23 +40,15 @@ if TYPE_CHECKING:
     from mindlang.compiler.model import Mind
     from mindlang.lock.status import ReadyMind
 
-EXAMPLES = """\b
-Examples:
-  mindc build collect.mind -o collect.bundle
-  mindc build collect.mind -o avoid.bundle --master Avoid
-  mindc build collect.mind -o collect.bundle --json
-  mindc build ball.mind --robot robot.yaml -o ball.bundle
-"""
 
-
-@click.command(epilog=EXAMPLES)
+@click.command
 @click.argument("file")
 @written("-o --output", "PATH", "The bundle: -o collect.bundle", required=True)
 @named("--master", "SKILL", SKILLS, "Another skill in charge: --master Avoid")
 @click.option("--robot", type=PATH, metavar="FILE", help="What it is wired to: --robot robot.yaml")
-@click.option("--json", "as_json", is_flag=True, help="Say what was built as one JSON document: --json")
-@click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors: -q")
-def command(file: str, output: Path, master: str | None, robot: Path | None, as_json: bool, quiet: bool) -> None:
+@json_flag("Say what was built as one JSON document: --json")
+@quiet_flag("Print nothing but errors: -q")
+def command(file: str, output: Path, master: str | None, robot: Path | None) -> None:
     """Build a bundle of FILE, the one file that runs on a robot.
 
     It holds the hierarchy, the weights of every skill that can act, and the text of its procedures. With --robot also
@@ -53,9 +63,7 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
 
     compiled = load_compiled(file)
     (mind, graph), folder = compiled.whole, compiled.sources[0].folder
-    skills = [skill.name for skill in graph.skills]
-    if master is not None and master not in skills:
-        fail(f"There is no skill {master}.", did_you_mean(master, skills), MISUSE)
+    known_skills(graph, master or graph.master)
     graph = replace(graph, master=master or graph.master)
     _refuse_procedures(graph, mind, folder)
     wiring = _wiring(robot, graph, mind.unit_metres) if robot else None
@@ -70,9 +78,9 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     notes = [*ready.notes, *_needed_modules(ready, folder), *_reckoned(wiring, graph)]
     for note in notes:
         complain(f"note: {note}")
-    if as_json:
+    if is_asked("as_json"):
         print_json(_built(output, digest, ready, wiring) | {"notes": notes})
-    elif not quiet:
+    elif not is_asked("quiet"):
         count, wired = len(ready.policy.weights), f", wired to {wiring.robot}" if wiring else ""
         taught = f"{count} trained skill{'s' * (count != 1)}"
         click.echo(f"{output}: {ready.policy.graph.master} in charge, {taught}{wired}", err=True)
