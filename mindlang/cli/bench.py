@@ -170,7 +170,7 @@ class Bench:
             scores, data = self._score(prepared, seeds, f"{each.name}: ")
             benched.append(Benched(each.name, prepared.setup.task, scores))
             minds.append(_named(each, prepared) | data)
-        compared = compare_minds(*benched, all(each.setup.is_one_world for each in ready))
+        compared = compare_minds(benched[0], benched[1], all(each.setup.is_one_world for each in ready))
         found: dict[str, Any] = {"task": tasks[0].name, "seed": self.seed, "runs": len(seeds), **self._by()}
         found |= {"minds": minds, **compared.data(), "notes": notes}
         self._write(
