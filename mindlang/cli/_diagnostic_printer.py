@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from mindrun.files.printable import visible
 
+from mindlang.cli import _terminal as terminal
 from mindlang.compiler.diagnostic import MAX_DIAGNOSTICS, Diagnostic
 from mindlang.compiler.source import Span
 
@@ -16,12 +17,13 @@ EXCERPT_COLUMNS = 100
 Segment = tuple[str, str]  # text and style
 
 
-def print_report(diagnostics: Sequence[Diagnostic], console: "Console") -> None:
-    """Print diagnostics; after the first hundred only their number."""
+def print_report(diagnostics: Sequence[Diagnostic], console: "Console | None" = None) -> None:
+    """Print diagnostics, on stderr unless on another console; after the first hundred only their number."""
     if not diagnostics:
         return
     from rich.text import Text
 
+    console = console or terminal.console(stderr=True)
     for diagnostic in diagnostics[:MAX_DIAGNOSTICS]:
         console.print(Text.assemble(*_segments(diagnostic)))
     if len(diagnostics) > MAX_DIAGNOSTICS:

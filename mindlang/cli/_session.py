@@ -162,10 +162,9 @@ def refusing_setups(prefix: str = "") -> Iterator[None]:
     """End the program with one message where a run cannot begin: with 1 where the mind is not ready for it."""
     try:
         yield
-    except SetupError as error:
-        terminal.fail(f"{prefix}{error}", error.hint, terminal.MISUSE if error.misuse else terminal.FINDINGS)
     except MindError as error:
-        terminal.fail(f"{prefix}{error}", error.hint, terminal.MISUSE)
+        is_unready = isinstance(error, SetupError) and not error.misuse
+        terminal.fail(f"{prefix}{error}", error.hint, terminal.FINDINGS if is_unready else terminal.MISUSE)
 
 
 @contextmanager
@@ -179,7 +178,7 @@ def refusing_recordings() -> Iterator[None]:
 def read_breakpoints(path: Path, subject: BreakpointSubject) -> tuple[Breakpoint, ...]:
     """The breakpoints of a .break file; a mistake in it is reported, and ends the program before anything runs."""
     found = load_breakpoints(path, subject)
-    print_report(found.diagnostics, terminal.console(stderr=True))
+    print_report(found.diagnostics)
     if found.diagnostics:
         sys.exit(terminal.FINDINGS if all(each.span for each in found.diagnostics) else terminal.MISUSE)
     return found.breakpoints

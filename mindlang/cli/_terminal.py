@@ -222,6 +222,6 @@ def load_compiled(path: Path | str) -> Compiled:
 
     compiled = load(path)
     if compiled.graph is None:
-        print_report(compiled.diagnostics, console(stderr=True))
+        print_report(compiled.diagnostics)
         sys.exit(FINDINGS if compiled.readable else MISUSE)
     return compiled

@@ -17,20 +17,9 @@ from typing import TYPE_CHECKING
 import click
 from mindrun.errors import MindError
 
+from mindlang.cli import _terminal as terminal
 from mindlang.cli._diagnostic_printer import print_report
 from mindlang.cli._options import PATH, SKILLS, json_flag, named, quiet_flag, written
-from mindlang.cli._terminal import (
-    FINDINGS,
-    MISUSE,
-    complain,
-    console,
-    fail,
-    is_asked,
-    known_skills,
-    load_compiled,
-    print_json,
-    writing,
-)
 from mindlang.compiler.diagnostic import listed
 
 if TYPE_CHECKING:
@@ -58,29 +47,32 @@ def command(file: str, output: Path, master: str | None, robot: Path | None) -> 
     """
     from mindrun.engine.engine import procedure_sources
     from mindrun.graph.bundle import Bundle, write_bundle
+    from mindrun.graph.wiring import reckoned
 
     from mindlang.lock.status import make_ready
 
-    compiled = load_compiled(file)
+    compiled = terminal.load_compiled(file)
     (mind, graph), folder = compiled.whole, compiled.sources[0].folder
-    known_skills(graph, master or graph.master)
+    terminal.known_skills(graph, master or graph.master)
     graph = replace(graph, master=master or graph.master)
     _refuse_procedures(graph, mind, folder)
     wiring = _wiring(robot, graph, mind.unit_metres) if robot else None
     try:
-        with writing(output, FINDINGS):
+        with terminal.writing(output, terminal.FINDINGS):
             ready = make_ready(graph, compiled.sources)
             _refuse_missing(ready, file)
             procedures = procedure_sources(ready.policy.graph, folder)
             digest = write_bundle(output, Bundle(ready.policy, procedures, wiring))
     except MindError as error:
-        fail(str(error), code=MISUSE)
-    notes = [*ready.notes, *_needed_modules(ready, folder), *_reckoned(wiring, graph)]
+        terminal.fail(str(error), code=terminal.MISUSE)
+    servos = reckoned(wiring, graph) if wiring else {}
+    without = [f"{sensor} has no driver: it is reckoned from what {servo} is sent" for sensor, servo in servos.items()]
+    notes = [*ready.notes, *_needed_modules(ready, folder), *without]
     for note in notes:
-        complain(f"note: {note}")
-    if is_asked("as_json"):
-        print_json(_built(output, digest, ready, wiring) | {"notes": notes})
-    elif not is_asked("quiet"):
+        terminal.complain(f"note: {note}")
+    if terminal.is_asked("as_json"):
+        terminal.print_json(_built(output, digest, ready, wiring) | {"notes": notes})
+    elif not terminal.is_asked("quiet"):
         count, wired = len(ready.policy.weights), f", wired to {wiring.robot}" if wiring else ""
         taught = f"{count} trained skill{'s' * (count != 1)}"
         click.echo(f"{output}: {ready.policy.graph.master} in charge, {taught}{wired}", err=True)
@@ -90,10 +82,8 @@ def _refuse_missing(ready: ReadyMind, file: str) -> None:
     """End the program where a skill that can act has no weights that fit."""
     from mindlang.run.setup import train_command
 
-    for refusal in ready.refusals[:-1]:
-        complain(refusal)
     if ready.refusals:
-        fail(ready.refusals[-1], train_command(Path(file), ready))
+        terminal.fail("\n".join(ready.refusals), train_command(Path(file), ready))
 
 
 def _needed_modules(ready: ReadyMind, folder: Path) -> list[str]:
@@ -107,14 +97,6 @@ def _needed_modules(ready: ReadyMind, folder: Path) -> list[str]:
     return [f"the robot needs {listed(needed, 'and')}, which no bundle holds"] if needed else []
 
 
-def _reckoned(wiring: Wiring | None, graph: Graph) -> list[str]:
-    """A sentence for each sensor that nothing measures on the robot."""
-    from mindrun.graph.wiring import reckoned
-
-    known = reckoned(wiring, graph).items() if wiring else ()
-    return [f"{sensor} has no driver: it is reckoned from what {servo} is sent" for sensor, servo in known]
-
-
 def _refuse_procedures(graph: Graph, mind: Mind, folder: Path) -> None:
     """Say what `check` says of procedures; end the program where one that travels cannot be what its skill needs."""
     from mindrun.graph.skill_sets import reachable
@@ -124,9 +106,9 @@ def _refuse_procedures(graph: Graph, mind: Mind, folder: Path) -> None:
     travelling = reachable(graph, graph.master)
     found = [*mistakes(travelling, mind, folder)]
     left = mistakes([skill for skill in graph.skills if skill not in travelling], mind, folder)
-    print_report([*found, *(replace(each, severity="warning") for each in left)], console(stderr=True))
+    print_report([*found, *(replace(each, severity="warning") for each in left)])
     if any(each.severity == "error" for each in found):
-        sys.exit(FINDINGS)
+        sys.exit(terminal.FINDINGS)
 
 
 def _wiring(path: Path, graph: Graph, unit_metres: float | None) -> Wiring:
@@ -134,9 +116,9 @@ def _wiring(path: Path, graph: Graph, unit_metres: float | None) -> Wiring:
     from mindlang.robot.wire import load_wiring
 
     checked = load_wiring(path, graph, unit_metres)
-    print_report(checked.diagnostics, console(stderr=True))
+    print_report(checked.diagnostics)
     if checked.wiring is None:
-        sys.exit(FINDINGS if checked.readable else MISUSE)
+        sys.exit(terminal.FINDINGS if checked.readable else terminal.MISUSE)
     return checked.wiring
 
 

@@ -22,12 +22,10 @@ from mindrun.terminal.command_line import command_line
 from mindlang.breakpoints import SUFFIX
 from mindlang.cli._diagnostic_printer import as_data, print_report
 from mindlang.cli._options import SKILLS, TASKS, files_of, in_files, json_flag, named
-from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, is_asked, print_json, refusing, tell
+from mindlang.cli._terminal import FINDINGS, MISUSE, OK, is_asked, print_json, refusing, tell
 from mindlang.compiler.diagnostic import Diagnostic, distinct
 
 if TYPE_CHECKING:
-    from mindrun.graph.bundle import Bundle
-
     from mindlang.compiler.compile import Compiled
 
 
@@ -72,7 +70,7 @@ def command(files: tuple[str, ...], task: str | None, master: str | None) -> Non
         of_files = [{"file": each.file, "ok": each.is_whole and not each.diagnostics} for each in checked]
         print_json({"files": of_files, "diagnostics": [as_data(diagnostic) for diagnostic in found]})
     elif found:
-        print_report(found, console(stderr=True))
+        print_report(found)
         click.echo(f"{len(found)} mistake{'s' if len(found) > 1 else ''}{in_files(files, named)}", err=True)
     else:
         click.echo(f"nothing wrong{in_files(files, named)}", err=True)
@@ -96,13 +94,16 @@ def _breakpoints(
     """The files of breakpoints, each against every bundle, or else a mind; it is said where there is neither."""
     if not files:
         return
+    if bundles:
+        from mindrun.graph.bundle import read_bundle  # which needs numpy
+
     from mindlang.breakpoints.resolve import load_breakpoints
     from mindlang.breakpoints.subject import mind_of, subject_of_bundle, subject_of_mind
 
     for file in dict.fromkeys(files):
         mind = None if bundles else mind_of(file, given)
         with refusing(MISUSE):
-            subjects = [subject_of_bundle(_bundle(path), task, master) for path in bundles]
+            subjects = [subject_of_bundle(read_bundle(Path(path)), task, master) for path in bundles]
             subjects += [subject_of_mind(mind, task, master)] if mind else []
         if not subjects:
             hint = f"{command_line('mindc', 'check', 'NAME.mind', Path(file))} looks for the names in it, too"
@@ -110,9 +111,3 @@ def _breakpoints(
         for subject in subjects or (None,):
             found = load_breakpoints(file, subject).diagnostics
             yield _Checked(file, found, all(each.span for each in found))
-
-
-def _bundle(path: str) -> "Bundle":
-    from mindrun.graph.bundle import read_bundle  # which needs numpy
-
-    return read_bundle(Path(path))

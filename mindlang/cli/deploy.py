@@ -55,7 +55,10 @@ def command(words: tuple[str, ...], rollback: bool, as_list: bool, dry_run: bool
         if not is_asked("quiet"):
             click.echo(message, err=True)
 
-    path, host = _path_and_host(words, rollback or as_list)
+    *bundles, host = words
+    if len(bundles) > 1 or not (bundles or rollback or as_list):
+        raise click.UsageError("Write mindc deploy BUNDLE HOST, or mindc deploy HOST with --rollback or --list.")
+    path = Path(bundles[0]) if bundles and not (rollback or as_list) else None
     settings = Settings(**said)
     if (rollback and as_list) or (settings.armed and not settings.service):
         raise click.UsageError("--rollback and --list, like --arm-service and --no-service, exclude each other.")
@@ -80,15 +83,6 @@ def command(words: tuple[str, ...], rollback: bool, as_list: bool, dry_run: bool
         print_json({**came, "service": service, "notes": list(done.notes)})
     elif not dry_run:
         report(f"{host} has {done.release}")
-
-
-def _path_and_host(words: tuple[str, ...], without: bool) -> tuple[Path | None, str]:
-    match words:
-        case (*_, host) if without and len(words) <= 2:
-            return None, host
-        case (bundle, host):
-            return Path(bundle), host
-    raise click.UsageError("Write mindc deploy BUNDLE HOST, or mindc deploy HOST with --rollback or --list.")
 
 
 def _checked(path: Path, settings: "Settings") -> "Bundle":

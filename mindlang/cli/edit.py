@@ -12,7 +12,7 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -20,7 +20,7 @@ from mindlang.cli import Suggesting
 from mindlang.cli import _terminal as terminal
 from mindlang.cli._diagnostic_printer import as_data, print_report
 from mindlang.cli._options import SKILLS, declared, flag, json_flag
-from mindlang.compiler.diagnostic import Diagnostic, listed
+from mindlang.compiler.diagnostic import listed
 
 if TYPE_CHECKING:
     from mindlang.editing.apply import Edited
@@ -137,21 +137,17 @@ def _perform(of: Edit, file: str, write: bool, anyway: bool, keep_weights: bool,
         if write:
             write_edited(edited)
     except EditError as error:
-        _refuse(error.diagnostic)
+        if terminal.is_asked("as_json"):
+            terminal.print_json({"diagnostics": [as_data(error.diagnostic)]})
+        else:
+            print_report([error.diagnostic])
+        sys.exit(terminal.FINDINGS)
     if terminal.is_asked("as_json"):
         terminal.print_json({"diff": diff(edited), "written": write, "weights": sentences})
         return
     if not write:
         terminal.print_diff(diff(edited))
     terminal.tell(*sentences, _ending(edited, write))
-
-
-def _refuse(diagnostic: Diagnostic) -> NoReturn:
-    if terminal.is_asked("as_json"):
-        terminal.print_json({"diagnostics": [as_data(diagnostic)]})
-    else:
-        print_report([diagnostic], terminal.console(stderr=True))
-    sys.exit(terminal.FINDINGS)
 
 
 def _verified(edited: Edited) -> str:

@@ -19,7 +19,7 @@ import click
 from mindlang.breakpoints import SUFFIX
 from mindlang.cli._diagnostic_printer import print_report
 from mindlang.cli._options import files_of, flag, in_files
-from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_diff, print_document, rewrite_source
+from mindlang.cli._terminal import FINDINGS, MISUSE, OK, print_diff, print_document, rewrite_source
 from mindlang.compiler.diagnostic import Diagnostic, Findings
 
 if TYPE_CHECKING:
@@ -84,8 +84,8 @@ def revised(file: str, revise: "Callable[[Source, Findings], str]") -> tuple[str
 
     source, findings = read_main(file), Findings()
     if isinstance(source, Diagnostic):
-        print_report([source], console(stderr=True))
+        print_report([source])
         return MISUSE
     text = revise(source, findings)
-    print_report(findings.diagnostics, console(stderr=True))
+    print_report(findings.diagnostics)
     return FINDINGS if findings.diagnostics else (source.text, text)

@@ -24,13 +24,8 @@ def _known() -> tuple[Article, ...]:
     return (*kind_articles(), *driver_articles())
 
 
-def _nouns() -> dict[str, str]:
-    """The nouns of all kinds and drivers, as completions without a description."""
-    return dict.fromkeys((each.noun for each in _known()), "")
-
-
 @click.command
-@click.argument("noun", required=False, shell_complete=one_of(_nouns))
+@click.argument("noun", required=False, shell_complete=one_of(lambda: {each.noun: "" for each in _known()}))
 @json_flag("One JSON document instead: mindc kinds sensor --json")
 def command(noun: str | None) -> None:
     """List the kinds of the language and the drivers.
@@ -46,7 +41,8 @@ def command(noun: str | None) -> None:
     known = _known()
     chosen = [each for each in known if noun is None or each.noun == ALSO_CALLED.get(noun, noun)]
     if not chosen:
-        near = did_you_mean(str(noun), _nouns())
-        fail(f"There are no kinds of {visible(str(noun))}.", near or f"Write {listed(_nouns())}.", MISUSE)
+        nouns = {each.noun: "" for each in known}
+        near = did_you_mean(str(noun), nouns)
+        fail(f"There are no kinds of {visible(str(noun))}.", near or f"Write {listed(nouns)}.", MISUSE)
     data = {"kinds": [article_data(each) for each in chosen]}
     print_result(data, lambda: Text.assemble(*kind_list(chosen)), end="")

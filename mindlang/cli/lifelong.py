@@ -77,12 +77,9 @@ def lines(found: Mapping[str, Any]) -> Iterator[str]:
         yield "\n" + _line("after lesson", wide, [*range(1, len(lessons) + 1)][shown], "kept" * is_last)
         for name, task in zip(names, tasks, strict=True):
             share = "–" if task["kept"] is None else f"{task['kept']:.0%}"
-            yield _line(name, wide, map(_short, task["means"][shown]), share * is_last)
+            means = ("–" if x is None else f"{x:.{int(abs(x) < LONG_MEAN)}f}" for x in task["means"][shown])
+            yield _line(name, wide, means, share * is_last)
 
 
 def _line(name: str, wide: int, cells: Iterable[object], last: str) -> str:
     return f"{name:<{wide}}" + "".join(f"{cell!s:>{CELL_COLUMNS}}" for cell in (*cells, last)).rstrip()
-
-
-def _short(mean: float | None) -> str:
-    return "–" if mean is None else f"{mean:.1f}" if abs(mean) < LONG_MEAN else f"{mean:.0f}"

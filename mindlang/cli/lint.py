@@ -74,7 +74,7 @@ def _settings(file: str) -> "LintSettings":
 
     found = settings_of(Path(realpath(file)))
     if found.wrong:
-        print_report(found.wrong, console(stderr=True))
+        print_report(found.wrong)
         sys.exit(MISUSE)
     return found
 

@@ -113,10 +113,15 @@ def training_view(folder: Path, seed: int | None) -> "tuple[Viewed, Learning]":
 
 def _show_recording(file: str, bundle: Path, follow: bool, breaks: Path | None, output: "ViewOutput") -> None:
     """Show a recording: read once, or followed while it is written, of this machine or as HOST:FILE."""
-    from mindlang.cli._session import refusing_recordings
+    from mindlang.breakpoints.watch import RecordingWatcher, recording_subject
+    from mindlang.cli._session import read_breakpoints, refusing_recordings
     from mindlang.view.viewed_recording import followed_recording, viewed_recording
 
-    watching = _watching(breaks) if breaks else None
+    watching: Watching | None = (
+        (lambda of, mind: RecordingWatcher(read_breakpoints(breaks, recording_subject(of, mind)), of, mind))
+        if breaks
+        else None
+    )
     with ExitStack() as stack:
         with refusing_recordings():
             if follow:
@@ -124,14 +129,6 @@ def _show_recording(file: str, bundle: Path, follow: bool, breaks: Path | None, 
             else:
                 viewed = viewed_recording(Path(file), bundle, watching)
         output.show(viewed)
-
-
-def _watching(breaks: Path) -> "Watching":
-    """A function that makes the watcher of a recording, for the breakpoints of a file."""
-    from mindlang.breakpoints.watch import RecordingWatcher, recording_subject
-    from mindlang.cli._session import read_breakpoints
-
-    return lambda of, mind: RecordingWatcher(read_breakpoints(breaks, recording_subject(of, mind)), of, mind)
 
 
 @dataclass(frozen=True, slots=True)
