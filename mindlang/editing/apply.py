@@ -22,7 +22,7 @@ from mindlang.editing import transaction
 from mindlang.editing.insertion import first_line
 from mindlang.editing.lock_update import UpdatedLocks, new_names, update_locks
 from mindlang.editing.project import EditError, MindChange, Project
-from mindlang.editing.world_names import now_called, renamed
+from mindlang.editing.world_names import Renaming, renamed
 from mindlang.lock import LockError, Locks, lock_text, locks_of
 
 NOTHING_UNSAVED: Mapping[Path, str] = {}
@@ -122,9 +122,8 @@ def refuse_in_families(project: Project, change: MindChange) -> None:
 
 def _refuse_captured(project: Project, change: MindChange, graph: Graph) -> None:
     """EditError where a rename makes a line mean something else: the new name is that of something else there."""
-    names = new_names(change)
-    meant = renamed(project.graph, lambda text, *nouns: now_called(text, names, *nouns))
-    if any(names.values()) and meant != renamed(graph, lambda text, *nouns: text):
+    now_called = Renaming(new_names(change), ()).name
+    if change.renamed and renamed(project.graph, now_called) != renamed(graph, lambda text, *nouns: text):
         old, new = change.renamed[0].old, change.renamed[0].new
         raise EditError(f"If {old} is called {new}, a line means something else.", "Choose another name.")
 

@@ -45,7 +45,9 @@ def _declarations(project: Project, read: File) -> Iterator[Splice]:
     for number in numbers:
         project.refuse_taken("number", number.name.text)
     if numbers:
-        yield insertion.number_lines(project.main, [number.span.text for number in numbers])
+        settings = project.main.settings
+        last = [*settings, *(setting for setting in settings if isinstance(setting, Number))][-1]
+        yield insertion.insert_below(insertion.first_line(last.span), [number.span.text for number in numbers])
     for declaration in read.declarations:
         project.refuse_taken(declaration.header.noun.text, declaration.header.name.text)
     for noun in insertion.NOUNS:

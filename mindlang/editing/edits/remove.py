@@ -2,11 +2,11 @@
 
 from typing import Annotated
 
-from mindlang.compiler.diagnostic import Label, did_you_mean
+from mindlang.compiler.diagnostic import did_you_mean
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import NOUNS, Declaration
 from mindlang.editing.insertion import first_line, owners, remove_lines, without_declarations, without_fact
-from mindlang.editing.project import EditError, MindChange, Project, suggestion
+from mindlang.editing.project import EditError, MindChange, Project, refuse_mentioned, suggestion
 
 
 def remove(
@@ -48,10 +48,8 @@ def _number(project: Project, name: str) -> Splice:
     """The line of a number taken out; EditError where there is none, or where a line says its name."""
     if name not in project.names.numbers:
         raise EditError(f"There is no number called {name}.", suggestion(name, [*project.names.numbers]))
-    used = [mention.name.span for mention in project.everywhere("number", name) if not mention.is_own]
-    if used:
-        labels = [Label(span, "and here") for span in used[1:]]
-        raise EditError(f"{name} is still used.", "Write the number itself there first.", used[0], *labels)
+    used = [mention for mention in project.everywhere("number", name) if not mention.is_own]
+    refuse_mentioned(name, used, "Write the number itself there first.")
     line = first_line(project.names.numbers[name].span)
     return remove_lines(line, line)
 
