@@ -6,7 +6,7 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from mindrun.errors import MindError, ProcedureError
 from mindrun.graph.run_scores import Scores
@@ -27,7 +27,6 @@ from mindlang.compiler.compile import Compiled
 from mindlang.executors.jobs import JobScorer
 from mindlang.limits import refuse_too_large, refuse_too_many
 from mindlang.run.chosen_task import SetupError
-from mindlang.run.promises import promises_in
 from mindlang.run.recorded_run import RunResult, run_result
 from mindlang.run.setup import NO_GENOME, RunSetup, run_timed, set_up
 
@@ -117,11 +116,6 @@ class RunSession:
         made = run_result(setup, rollout, seed)
         self.note(*rollout.notes)
         return made
-
-    @terminal.procedures_talk()
-    def promises(self, prepared: Prepared, seeds: Sequence[int], most: int) -> list[dict[str, Any]]:
-        """What became of the promises of a mind in the first runs of these seeds, which have the `most` ticks."""
-        return promises_in(prepared.rollout, prepared.setup.master, seeds, most)
 
     def counting(self, what: str, total: int) -> AbstractContextManager[Ran]:
         """Show how much of something has been done; see `counting`."""

@@ -25,8 +25,8 @@ import click
 from mindrun.processors import cores
 
 from mindlang.cli import _options as options
+from mindlang.cli import _terminal as terminal
 from mindlang.cli._options import flag
-from mindlang.cli._terminal import MISUSE, fail, load_compiled, print_result, refuse_unwritable, write_file
 
 if TYPE_CHECKING:
     from mindrun.graph.policy import Policy
@@ -77,7 +77,7 @@ def command(files: tuple[str, ...], masters: tuple[str, ...], workers: int | Non
 
     worlds, credit = said.pop("worlds"), said.pop("credit")
     bench = Bench(RunSession(), workers or cores(), **said)
-    refuse_unwritable(bench.table, ".csv")
+    terminal.refuse_unwritable(bench.table, ".csv")
     if bench.where is not None:
         options.refuse_ineffective("for the cores of this machine: with --on others make the runs", "workers")
     who = contenders(files, masters)
@@ -104,7 +104,11 @@ class Contender:
 def contenders(files: Sequence[str], masters: Sequence[str]) -> list[Contender]:
     """The contenders: one mind, two minds, each with its own master if it has one, or one mind under two masters."""
     if len(files) > MAX_COMPARED or len(masters) > MAX_COMPARED:
-        fail("Two are compared, not more.", "mindc bench A.mind B.mind, or one FILE with --master X --master Y", MISUSE)
+        terminal.fail(
+            "Two are compared, not more.",
+            "mindc bench A.mind B.mind, or one FILE with --master X --master Y",
+            terminal.MISUSE,
+        )
     count = max(len(files), len(masters))
     asked: Sequence[str | None] = masters or [None]
     both = [(files[i % len(files)], asked[i % len(asked)]) for i in range(count)]
@@ -121,7 +125,7 @@ def learnt(file: str) -> "Policy":
     """What the skills of a mind have learnt."""
     from mindlang.lock.status import make_ready
 
-    compiled = load_compiled(file)
+    compiled = terminal.load_compiled(file)
     return make_ready(compiled.whole[1], compiled.sources).policy
 
 
@@ -152,7 +156,7 @@ class Bench:
         self.session.note(*over_at_once(task, scores))
         found = {"task": task.name, "master": setup.master, "seed": self.seed, **self._by(), **data}
         self._write(lambda: runs_table(task, scores, seeds), f"{len(seeds):,} runs")
-        print_result(found, lambda: bench_summary(found))
+        terminal.print_result(found, lambda: bench_summary(found))
 
     def compare(self, who: Sequence[Contender]) -> None:
         """Run both on the same layouts, the second on the task of the first, and print what differs."""
@@ -177,7 +181,7 @@ class Bench:
             lambda: joined({each.name: runs_table(each.task, each.scores, seeds) for each in benched}),
             f"2 × {len(seeds):,} runs",
         )
-        print_result(found, lambda: comparison_summary(found, compared))
+        terminal.print_result(found, lambda: comparison_summary(found, compared))
 
     def in_worlds(self, who: Sequence[Contender]) -> None:
         """Run each mind as it was taught and in changed worlds, on the same layouts, and print what is left there."""
@@ -202,7 +206,7 @@ class Bench:
             lambda: joined({name: joined(each) for name, each in tables.items()}, "world"),
             f"{len(cast)} × {self.runs:,} runs",
         )
-        print_result(data, lambda: worlds_summary(data))
+        terminal.print_result(data, lambda: worlds_summary(data))
 
     def credit(self, who: Sequence[Contender]) -> None:
         """Run a mind whole, then without each of its skills on the same layouts, and print what each is worth.
@@ -210,7 +214,7 @@ class Bench:
         With another mind the skills are not silent in turn, but have the weights that they have there.
         """
         if len({each.file for each in who}) < len(who):
-            fail("Credit is given under one master.", "mindc bench FILE --credit", MISUSE)
+            terminal.fail("Credit is given under one master.", "mindc bench FILE --credit", terminal.MISUSE)
         from mindlang.run.credit import WHOLE, credit_of, given_back, silenced
         from mindlang.run.paired_difference import CONFIDENCE_LEVEL
         from mindlang.run.summary import credit_summary
@@ -223,7 +227,9 @@ class Bench:
         if len(who) == 1:
             minds = silenced(policy, setup.master)
         elif not (minds := given_back(policy, learnt(who[1].file), setup.master)):
-            fail(f"No skill of {setup.master} in {who[0].file} has other weights in {who[1].file}.", code=MISUSE)
+            terminal.fail(
+                f"No skill of {setup.master} in {who[0].file} has other weights in {who[1].file}.", code=terminal.MISUSE
+            )
         cast = {WHOLE: whole} | {name: self._elsewhere(whole, each) for name, each in minds.items()}
         scores: dict[str, Scores] = {}
         data: dict[str, dict[str, Any]] = {}
@@ -240,7 +246,7 @@ class Bench:
             lambda: joined({name: runs_table(task, each, seeds) for name, each in scores.items()}, left),
             f"{len(cast)} × {len(seeds):,} runs",
         )
-        print_result(found, lambda: credit_summary(found, credited))
+        terminal.print_result(found, lambda: credit_summary(found, credited))
 
     def _worlds(self, here: "Prepared") -> "Iterator[tuple[World, Prepared, list[int]]]":
         """The worlds for a mind, each with the simulator that makes its runs, and their seeds."""
@@ -275,7 +281,7 @@ class Bench:
         from mindlang.executors import scorer_on
         from mindlang.executors.jobs import assignment_of
         from mindlang.run.outcome import bench_data, over_at_once
-        from mindlang.run.promises import FEW_TICKS, MAX_COUNTED_TICKS
+        from mindlang.run.promises import FEW_TICKS, MAX_COUNTED_TICKS, promises_in
 
         setup, rollout = prepared
         cast = setup.ready.policy, setup.task.name, setup.master, setup.folder
@@ -284,7 +290,8 @@ class Bench:
             scores, seconds, cpu = self.session.score(scorer, seeds, whose, ran)
         data = bench_data(setup.task, scores, seeds, seconds, None if self.where else cpu)
         data |= {"notes": setup.notes(rollout, *over_at_once(setup.task, scores))}
-        promises = self.session.promises(prepared, seeds, FEW_TICKS if ran else MAX_COUNTED_TICKS)
+        with terminal.procedures_talk():
+            promises = promises_in(rollout, setup.master, seeds, FEW_TICKS if ran else MAX_COUNTED_TICKS)
         return scores, data | ({"promises": promises} if promises else {})
 
     def _by(self) -> dict[str, int | str]:
@@ -295,7 +302,7 @@ class Bench:
         from mindlang.run.tables import csv_parts
 
         if self.table:
-            write_file(self.table, csv_parts(rows()))
+            terminal.write_file(self.table, csv_parts(rows()))
             self.session.say(f"{self.table}: a row for each of {runs}")
 
 

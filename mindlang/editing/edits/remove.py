@@ -26,7 +26,13 @@ def remove(
     """
     words = " ".join(what).split()
     if from_:
-        return _fact(words, project.declared(from_, noun, among=owners(words[0]) or NOUNS))
+        declaration = project.declared(from_, noun, among=owners(words[0]) or NOUNS)
+        said = {" ".join(fact.span.text.split()): fact for fact in reversed(declaration.facts)}  # the first of two
+        text = " ".join(words)
+        if text not in said:
+            hint = did_you_mean(text, said) or "Say the line as it stands there, without its comment."
+            raise EditError(f"{declaration.header.name.text} does not say: {text}.", hint, declaration.header.span)
+        return MindChange((without_fact(said[text]),))
     if name := _name_of_number(project, words, noun):
         return MindChange((_number(project, name),))
     declaration = _declaration(project, words, noun)
@@ -64,13 +70,3 @@ def _declaration(project: Project, words: list[str], noun: str) -> Declaration:
     hint = did_you_mean(words[0], NOUNS) if len(words) == 2 else ""
     example = 'Write for example pulse, or "reads pulse" --from Avoid.'
     raise EditError(f"{' '.join(words)} is neither a name nor a noun and a name.", hint or example)
-
-
-def _fact(words: list[str], declaration: Declaration) -> MindChange:
-    """A declaration without the first of its facts that says these words; EditError where none does."""
-    said = {" ".join(fact.span.text.split()): fact for fact in reversed(declaration.facts)}
-    text = " ".join(words)
-    if text not in said:
-        hint = did_you_mean(text, said) or "Say the line as it stands there, without its comment."
-        raise EditError(f"{declaration.header.name.text} does not say: {text}.", hint, declaration.header.span)
-    return MindChange((without_fact(said[text]),))
