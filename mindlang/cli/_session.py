@@ -21,7 +21,6 @@ from mindlang.breakpoints.resolve import load_breakpoints
 from mindlang.breakpoints.subject import BreakpointSubject
 from mindlang.breakpoints.watch import noticing
 from mindlang.cli import _terminal as terminal
-from mindlang.cli._diagnostic_printer import print_report
 from mindlang.cli._options import RunChoice
 from mindlang.compiler.compile import Compiled
 from mindlang.executors.jobs import JobScorer
@@ -172,7 +171,7 @@ def refusing_recordings() -> Iterator[None]:
 def read_breakpoints(path: Path, subject: BreakpointSubject) -> tuple[Breakpoint, ...]:
     """The breakpoints of a .break file; a mistake in it is reported, and ends the program before anything runs."""
     found = load_breakpoints(path, subject)
-    print_report(found.diagnostics)
+    terminal.print_report(found.diagnostics)
     if found.diagnostics:
         sys.exit(terminal.FINDINGS if all(each.span for each in found.diagnostics) else terminal.MISUSE)
     return found.breakpoints

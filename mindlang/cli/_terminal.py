@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from rich.text import Text
 
     from mindlang.compiler.compile import Compiled
+    from mindlang.compiler.diagnostic import Diagnostic
 
 OK, FINDINGS, MISUSE, INTERRUPTED = 0, 1, 2, 130  # how a program ends
 PIPE_COLUMNS = 1000
@@ -60,6 +61,22 @@ def complain(message: str, hint: str = "") -> None:
     console(stderr=True).print(Text(visible(message), "red"))
     if hint:
         console(stderr=True).print(Text(f"  {visible(hint)}"))
+
+
+def print_report(diagnostics: Sequence[Diagnostic], on: Console | None = None) -> None:
+    """Print diagnostics, on stderr unless on another console; after the first hundred only their number."""
+    if not diagnostics:
+        return
+    from rich.text import Text
+
+    from mindlang.cli._diagnostic_printer import segments
+    from mindlang.compiler.diagnostic import MAX_DIAGNOSTICS
+
+    on = on or console(stderr=True)
+    for diagnostic in diagnostics[:MAX_DIAGNOSTICS]:
+        on.print(Text.assemble(*segments(diagnostic)))
+    if len(diagnostics) > MAX_DIAGNOSTICS:
+        on.print(f"… and {len(diagnostics) - MAX_DIAGNOSTICS} more.")
 
 
 def fail(message: str, hint: str = "", code: int = FINDINGS) -> NoReturn:
@@ -217,7 +234,6 @@ def load_compiled(path: Path | str) -> Compiled:
 
     Of procedures that cannot be called nothing is said: who calls one does.
     """
-    from mindlang.cli._diagnostic_printer import print_report
     from mindlang.compiler.compile import load
 
     compiled = load(path)

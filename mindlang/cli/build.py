@@ -18,7 +18,6 @@ import click
 from mindrun.errors import MindError
 
 from mindlang.cli import _terminal as terminal
-from mindlang.cli._diagnostic_printer import print_report
 from mindlang.cli._options import PATH, SKILLS, json_flag, named, quiet_flag, written
 from mindlang.compiler.diagnostic import listed
 
@@ -106,7 +105,7 @@ def _refuse_procedures(graph: Graph, mind: Mind, folder: Path) -> None:
     travelling = reachable(graph, graph.master)
     found = [*mistakes(travelling, mind, folder)]
     left = mistakes([skill for skill in graph.skills if skill not in travelling], mind, folder)
-    print_report([*found, *(replace(each, severity="warning") for each in left)])
+    terminal.print_report([*found, *(replace(each, severity="warning") for each in left)])
     if any(each.severity == "error" for each in found):
         sys.exit(terminal.FINDINGS)
 
@@ -116,7 +115,7 @@ def _wiring(path: Path, graph: Graph, unit_metres: float | None) -> Wiring:
     from mindlang.robot.wire import load_wiring
 
     checked = load_wiring(path, graph, unit_metres)
-    print_report(checked.diagnostics)
+    terminal.print_report(checked.diagnostics)
     if checked.wiring is None:
         sys.exit(terminal.FINDINGS if checked.readable else terminal.MISUSE)
     return checked.wiring

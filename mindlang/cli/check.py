@@ -20,9 +20,9 @@ import click
 from mindrun.terminal.command_line import command_line
 
 from mindlang.breakpoints import SUFFIX
-from mindlang.cli._diagnostic_printer import as_data, print_report
+from mindlang.cli._diagnostic_printer import as_data
 from mindlang.cli._options import SKILLS, TASKS, files_of, in_files, json_flag, named
-from mindlang.cli._terminal import FINDINGS, MISUSE, OK, is_asked, print_json, refusing, tell
+from mindlang.cli._terminal import FINDINGS, MISUSE, OK, is_asked, print_json, print_report, refusing, tell
 from mindlang.compiler.diagnostic import Diagnostic, distinct
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ import click
 
 from mindlang.cli import Suggesting
 from mindlang.cli import _terminal as terminal
-from mindlang.cli._diagnostic_printer import as_data, print_report
+from mindlang.cli._diagnostic_printer import as_data
 from mindlang.cli._options import SKILLS, declared, flag, json_flag
 from mindlang.compiler.diagnostic import listed
 
@@ -140,7 +140,7 @@ def _perform(of: Edit, file: str, write: bool, anyway: bool, keep_weights: bool,
         if terminal.is_asked("as_json"):
             terminal.print_json({"diagnostics": [as_data(error.diagnostic)]})
         else:
-            print_report([error.diagnostic])
+            terminal.print_report([error.diagnostic])
         sys.exit(terminal.FINDINGS)
     if terminal.is_asked("as_json"):
         terminal.print_json({"diff": diff(edited), "written": write, "weights": sentences})

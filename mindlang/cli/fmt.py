@@ -17,9 +17,8 @@ from typing import TYPE_CHECKING
 import click
 
 from mindlang.breakpoints import SUFFIX
-from mindlang.cli._diagnostic_printer import print_report
 from mindlang.cli._options import files_of, flag, in_files
-from mindlang.cli._terminal import FINDINGS, MISUSE, OK, print_diff, print_document, rewrite_source
+from mindlang.cli._terminal import FINDINGS, MISUSE, OK, print_diff, print_document, print_report, rewrite_source
 from mindlang.compiler.diagnostic import Diagnostic, Findings
 
 if TYPE_CHECKING:

@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING
 import click
 from click.shell_completion import CompletionItem
 
-from mindlang.cli._diagnostic_printer import as_data, print_report
+from mindlang.cli._diagnostic_printer import as_data
 from mindlang.cli._options import files_of, flag, in_files, named
-from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, fail, print_json, refusing
+from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, fail, print_json, print_report, refusing
 from mindlang.compiler.diagnostic import Diagnostic, distinct
 
 if TYPE_CHECKING:
