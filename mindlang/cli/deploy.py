@@ -22,7 +22,7 @@ from mindlang.cli._terminal import INTERRUPTED, MISUSE, fail, is_asked, print_js
 if TYPE_CHECKING:
     from mindrun.graph.bundle import Bundle
 
-    from mindlang.robot.deployment import ReleaseState, Settings
+    from mindlang.robot.deployment import DeployResult, ReleaseState, Settings
     from mindlang.robot.remote import RemoteRobot
 
 
@@ -78,11 +78,16 @@ def command(words: tuple[str, ...], rollback: bool, as_list: bool, dry_run: bool
         fail(whole, "The same command goes on.", INTERRUPTED)
     tell(*(f"note: {note}" for note in done.notes))
     if is_asked("as_json"):
-        service = {"unit": "mind.service", "armed": settings.armed} if settings.service else None
-        came = {"host": host, "dry_run": dry_run, "release": done.release or None, "before": done.before or None}
-        print_json({**came, "service": service, "notes": list(done.notes)})
+        print_json(_result(host, done, settings, dry_run))
     elif not dry_run:
         report(f"{host} has {done.release}")
+
+
+def _result(host: str, done: "DeployResult", settings: "Settings", dry_run: bool) -> dict[str, object]:
+    """The outcome of a deployment as one JSON document."""
+    service = {"unit": "mind.service", "armed": settings.armed} if settings.service else None
+    said = {"host": host, "dry_run": dry_run, "release": done.release or None, "before": done.before or None}
+    return {**said, "service": service, "notes": list(done.notes)}
 
 
 def _checked(path: Path, settings: "Settings") -> "Bundle":
