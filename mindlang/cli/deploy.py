@@ -51,10 +51,6 @@ def command(words: tuple[str, ...], rollback: bool, as_list: bool, dry_run: bool
     from mindlang.robot.deployment import Deployment, Settings
     from mindlang.robot.remote import check_host, check_tools, connected
 
-    def report(message: str) -> None:
-        if not is_asked("quiet"):
-            click.echo(message, err=True)
-
     *bundles, host = words
     if len(bundles) > 1 or not (bundles or rollback or as_list):
         raise click.UsageError("Write mindc deploy BUNDLE HOST, or mindc deploy HOST with --rollback or --list.")
@@ -71,7 +67,7 @@ def command(words: tuple[str, ...], rollback: bool, as_list: bool, dry_run: bool
                 if as_list:
                     _list(robot)
                     return
-                deployment = Deployment(robot, settings, report, dry_run)
+                deployment = Deployment(robot, settings, _report, dry_run)
                 done = deployment.deploy(path, bundle, datetime.now(UTC)) if path and bundle else deployment.roll_back()
     except KeyboardInterrupt:
         whole = "Interrupted: the robot has the old release or the new one, whole."
@@ -80,7 +76,12 @@ def command(words: tuple[str, ...], rollback: bool, as_list: bool, dry_run: bool
     if is_asked("as_json"):
         print_json(_result(host, done, settings, dry_run))
     elif not dry_run:
-        report(f"{host} has {done.release}")
+        _report(f"{host} has {done.release}")
+
+
+def _report(message: str) -> None:
+    if not is_asked("quiet"):
+        click.echo(message, err=True)
 
 
 def _result(host: str, done: "DeployResult", settings: "Settings", dry_run: bool) -> dict[str, object]:
