@@ -19,7 +19,8 @@ from rich.console import Console
 
 from benchmarks.call_count import CallCount
 from benchmarks.shapes import SHAPES
-from mindlang.cli._diagnostic_printer import as_data, print_report
+from mindlang.cli._diagnostic_printer import as_data
+from mindlang.cli._terminal import print_report
 from mindlang.cli.status import report
 from mindlang.compiler.comparison import mind_differences
 from mindlang.compiler.compile import Compiled, compile_source

@@ -4,6 +4,7 @@ import os
 import sys
 from gc import set_threshold
 from importlib import import_module
+from inspect import cleandoc
 from pkgutil import iter_modules
 from threading import active_count
 
@@ -14,6 +15,7 @@ from mindrun.terminal.arguments import emptiness
 
 from mindlang.cli._terminal import FINDINGS, INTERRUPTED, MISUSE, OK, complain
 
+EXAMPLES = "\n\nExamples:"  # what a command's text ends with
 # Objects made before Python looks for garbage among them: a large mind is millions, and none of them garbage.
 GARBAGE_COLLECTION_OBJECTS = 1_000_000
 YOUNG_COLLECTIONS = 1  # before it looks among older ones, too
@@ -35,9 +37,23 @@ class Suggesting(click.Group):
             raise click.UsageError(f"There is no {self.noun} called {args[0]!r}. {hint}", ctx)
         return super().resolve_command(ctx, args)
 
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The command of that name; the examples with which its docstring ends stand below its options."""
+        if cmd_name not in self.list_commands(ctx):
+            return None
+        command = self.load(cmd_name)
+        text, examples, calls = cleandoc(command.help or "").partition(EXAMPLES)
+        if examples:
+            command.help, command.epilog = text, f"\b\n{examples.lstrip()}{calls}"
+        return command
+
+    def load(self, name: str) -> click.Command:
+        """A command of the list."""
+        return self.commands[name]
+
 
 class Commands(Suggesting):
-    """The modules of this package as commands; each defines a click command called `command`."""
+    """The modules of this package as commands, imported when asked for; each has a click command called `command`."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Parse the words of a command line; ClickException where one is empty, which is no name, number or file."""
@@ -49,11 +65,12 @@ class Commands(Suggesting):
         """The names of all commands; what they share has a name that begins with _."""
         return sorted(module.name for module in iter_modules(__path__) if not module.name.startswith("_"))
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """The command of that name, imported now."""
-        if cmd_name not in self.list_commands(ctx):
-            return None
-        command: click.Command = import_module(f"{__name__}.{cmd_name}").command
+    def load(self, name: str) -> click.Command:
+        """The command of a module, with the examples with which the module's docstring ends."""
+        module = import_module(f"{__name__}.{name}")
+        command: click.Command = module.command
+        _, examples, calls = str(module.__doc__).partition(EXAMPLES)
+        command.help = cleandoc(command.help or "") + examples + calls
         return command
 
 

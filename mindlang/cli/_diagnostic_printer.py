@@ -1,36 +1,21 @@
 """Diagnostics for people and for programs: an excerpt with a caret on a terminal, plain data for JSON."""
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 from mindrun.files.printable import visible
 
-from mindlang.compiler.diagnostic import MAX_DIAGNOSTICS, Diagnostic
+from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Span
-
-if TYPE_CHECKING:
-    from rich.console import Console
 
 EXCERPT_COLUMNS = 100
 
 Segment = tuple[str, str]  # text and style
 
 
-def print_report(diagnostics: Sequence[Diagnostic], console: "Console") -> None:
-    """Print diagnostics; after the first hundred only their number."""
-    if not diagnostics:
-        return
-    from rich.text import Text
-
-    for diagnostic in diagnostics[:MAX_DIAGNOSTICS]:
-        console.print(Text.assemble(*_segments(diagnostic)))
-    if len(diagnostics) > MAX_DIAGNOSTICS:
-        console.print(f"… and {len(diagnostics) - MAX_DIAGNOSTICS} more.")
-
-
 def plain(diagnostic: Diagnostic) -> str:
     """A diagnostic as text without colours."""
-    return "".join(text for text, _ in _segments(diagnostic))
+    return "".join(text for text, _ in segments(diagnostic))
 
 
 def as_data(diagnostic: Diagnostic) -> dict[str, Any]:
@@ -56,7 +41,8 @@ def _place(span: Span) -> dict[str, Any]:
     }
 
 
-def _segments(diagnostic: Diagnostic) -> Iterator[Segment]:
+def segments(diagnostic: Diagnostic) -> Iterator[Segment]:
+    """A diagnostic as texts with their styles."""
     if diagnostic.span:
         yield f"{_where(diagnostic.span)}: ", "bold"
     yield f"{diagnostic.severity}: ", "red" if diagnostic.severity == "error" else "yellow"

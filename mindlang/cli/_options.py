@@ -109,9 +109,28 @@ def written(flag: str, metavar: str, about: str, **more: Any) -> Option:
     return click.option(*flag.split(), type=new_file, metavar=metavar, help=about, **more)
 
 
-def unless(flag: str, name: str, about: str) -> Option:
-    """A flag for what holds without it: what the command calls by that name is False where the flag is given."""
-    return click.option(flag, name, is_flag=True, callback=lambda context, parameter, value: not value, help=about)
+def flag(names: str, about: str, **more: Any) -> Option:
+    """An option that takes no value; behind its names may stand what the command calls it."""
+    return click.option(*names.split(), is_flag=True, help=about, **more)
+
+
+def unless(names: str, about: str) -> Option:
+    """A flag for what holds without it: what the command is told is False where the flag is given."""
+    return flag(names, about, callback=lambda context, parameter, value: not value)
+
+
+def json_flag(about: str = "Print one JSON document instead.") -> Option:
+    """The flag --json, of which `terminal.is_asked` knows."""
+    return flag("--json as_json", about, expose_value=False, callback=_note)
+
+
+def quiet_flag(about: str = "Print nothing but results and errors.") -> Option:
+    """The flag --quiet, of which `terminal.is_asked` knows."""
+    return flag("-q --quiet", about, expose_value=False, callback=_note)
+
+
+def _note(context: click.Context, parameter: click.Parameter, value: bool) -> None:
+    context.meta[str(parameter.name)] = value
 
 
 def taken(of: type[Chosen], said: dict[str, Any]) -> Chosen:
@@ -232,7 +251,7 @@ def run_options(seed: str) -> Option:
         @OF_TASK
         @click.option("--seed", type=LAYOUT, help=seed)
         @named("--master", "SKILL", SKILLS, IN_CHARGE)
-        @unless("--no-interruption", "interrupt", "Go on to the last tick, whatever would end the run.")
+        @unless("--no-interruption interrupt", "Go on to the last tick, whatever would end the run.")
         @wraps(command)
         def called(**said: Any) -> Any:
             return command(chosen=taken(RunChoice, said), **said)

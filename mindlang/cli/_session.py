@@ -1,13 +1,12 @@
 """Shared by the commands that simulate: a run set up, the simulator compiled, progress shown, recordings refused."""
 
-import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
-from types import FrameType
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from mindrun.errors import MindError, ProcedureError
 from mindrun.graph.run_scores import Scores
@@ -22,17 +21,15 @@ from mindlang.breakpoints.resolve import load_breakpoints
 from mindlang.breakpoints.subject import BreakpointSubject
 from mindlang.breakpoints.watch import noticing
 from mindlang.cli import _terminal as terminal
-from mindlang.cli._diagnostic_printer import print_report
 from mindlang.cli._options import RunChoice
 from mindlang.compiler.compile import Compiled
 from mindlang.executors.jobs import JobScorer
 from mindlang.limits import refuse_too_large, refuse_too_many
 from mindlang.run.chosen_task import SetupError
-from mindlang.run.promises import promises_in
 from mindlang.run.recorded_run import RunResult, run_result
 from mindlang.run.setup import NO_GENOME, RunSetup, run_timed, set_up
 
-Ran = Callable[[float], None]  # is told how many more runs have been made, parts of them too
+Ran = Callable[[float], None]  # is told how much more has been done: how many runs, parts of them too
 
 COMPILING_ALL = "compiling all of the simulator (half a minute)…"
 COMPILING = "compiling the simulator once (some ten seconds)…"
@@ -44,21 +41,10 @@ def ensure_compiled(rollout: Rollout, say: Callable[[str], None] = terminal.comp
     missing = cache.missing(units)
     if missing:
         say(COMPILING)
-    with progress(hidden=not missing) as bar:
-        part = bar.add_task("compiling", total=len(missing))
-        rollout.compile(told=lambda: bar.advance(part))
+    with counting("compiling", len(missing), hidden=not missing) as told:
+        rollout.compile(told=lambda: told(1))
     if not missing and not all(map(cache.is_native, units)):  # it was shipped, for any processor of its kind
         compile_in_background()
-
-
-@contextmanager
-def on_ctrl_c(handler: Callable[[int, FrameType | None], object]) -> Iterator[None]:
-    """Have a function called at Ctrl-C."""
-    before = signal.signal(signal.SIGINT, handler)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 class Prepared(NamedTuple):
@@ -70,9 +56,9 @@ class Prepared(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class RunSession:
-    """Talks on stderr, unless it is to be quiet; what is wrong ends the program with one message."""
+    """Talks on stderr, unless the command is to be quiet; what is wrong ends the program with one message."""
 
-    quiet: bool
+    quiet: bool = field(default_factory=partial(terminal.is_asked, "quiet"))
 
     def prepare(self, file: str, chosen: RunChoice, workers: int = 1, runs: int = 1) -> Prepared:
         """A run that is set up, in the simulator."""
@@ -84,7 +70,7 @@ class RunSession:
         """The task, the master and the weights for a run of a compiled file; ends the program where it cannot begin."""
         with refusing_setups():
             found = set_up(file, compiled, chosen.task, chosen.master)
-        self.say(*(f"note: {note}" for note in (*found.ready.notes, found.note) if note))
+        self.note(*filter(None, (*found.ready.notes, found.note)))
         return found
 
     def prepare_stopping(
@@ -119,7 +105,7 @@ class RunSession:
         """
         with nullcontext(ran) if ran else self.counting(scorer.task.name, len(seeds)) as told:
             found = run_timed(scorer, seeds, told)
-        self.say(*(f"note: {whose}{note}" for note in scorer.notes))
+        self.note(*(f"{whose}{note}" for note in scorer.notes))
         return found
 
     @terminal.procedures_talk()
@@ -127,28 +113,33 @@ class RunSession:
         """A run written down tick by tick, and its outcome."""
         rollout.make_again(NO_GENOME[0], seed)
         made = run_result(setup, rollout, seed)
-        self.say(*(f"note: {note}" for note in rollout.notes))
+        self.note(*rollout.notes)
         return made
 
-    @terminal.procedures_talk()
-    def promises(self, prepared: Prepared, seeds: Sequence[int], most: int) -> list[dict[str, Any]]:
-        """What became of the promises of a mind in the first runs of these seeds, which have the `most` ticks."""
-        return promises_in(prepared.rollout, prepared.setup.master, seeds, most)
-
-    @contextmanager
-    def counting(self, what: str, runs: int) -> Iterator[Ran]:
-        """A progress bar of so many runs, and a function that is told how many more have been made."""
-        with self.progress() as progress:
-            bar = progress.add_task(what, total=runs)
-            yield lambda more: progress.advance(bar, more)
+    def counting(self, what: str, total: int) -> AbstractContextManager[Ran]:
+        """Show how much of something has been done; see `counting`."""
+        return counting(what, total, self.quiet)
 
     def say(self, *lines: str) -> None:
         """Print lines on stderr."""
-        terminal.tell(*lines, quiet=self.quiet)
+        if not self.quiet:
+            terminal.tell(*lines)
+
+    def note(self, *notes: str) -> None:
+        """Print what is worth knowing beside the result on stderr."""
+        self.say(*(f"note: {note}" for note in notes))
 
     def progress(self) -> Progress:
         """A progress bar on stderr, hidden where that is no terminal."""
-        return progress(hidden=self.quiet)
+        return progress(self.quiet)
+
+
+@contextmanager
+def counting(what: str, total: int, hidden: bool = False) -> Iterator[Ran]:
+    """A progress bar of so much, and a function that is told how much more has been done."""
+    with progress(hidden) as shown:
+        bar = shown.add_task(what, total=total)
+        yield lambda more: shown.advance(bar, more)
 
 
 def progress(hidden: bool) -> Progress:
@@ -164,27 +155,23 @@ def refusing_setups(prefix: str = "") -> Iterator[None]:
     """End the program with one message where a run cannot begin: with 1 where the mind is not ready for it."""
     try:
         yield
-    except SetupError as error:
-        terminal.fail(f"{prefix}{error}", error.hint, terminal.MISUSE if error.misuse else terminal.FINDINGS)
     except MindError as error:
-        terminal.fail(f"{prefix}{error}", error.hint, terminal.MISUSE)
+        is_unready = isinstance(error, SetupError) and not error.misuse
+        terminal.fail(f"{prefix}{error}", error.hint, terminal.FINDINGS if is_unready else terminal.MISUSE)
 
 
 @contextmanager
 def refusing_recordings() -> Iterator[None]:
     """End the program with one message: where a recording is not what its bundle computes with 1, else with 2."""
-    try:
-        with terminal.procedures_talk():
-            yield
-    except MindError as error:
-        is_found = isinstance(error, (DifferenceError, ProcedureError))
-        terminal.fail(str(error), error.hint, terminal.FINDINGS if is_found else terminal.MISUSE)
+    found = DifferenceError, ProcedureError
+    with terminal.procedures_talk(), terminal.refusing(terminal.MISUSE), terminal.refusing(of=found):
+        yield
 
 
 def read_breakpoints(path: Path, subject: BreakpointSubject) -> tuple[Breakpoint, ...]:
     """The breakpoints of a .break file; a mistake in it is reported, and ends the program before anything runs."""
     found = load_breakpoints(path, subject)
-    print_report(found.diagnostics, terminal.console(stderr=True))
+    terminal.print_report(found.diagnostics)
     if found.diagnostics:
         sys.exit(terminal.FINDINGS if all(each.span for each in found.diagnostics) else terminal.MISUSE)
     return found.breakpoints

@@ -8,19 +8,23 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
+import click
 from mindrun.errors import MindError
 from mindrun.files.printable import visible
 from mindrun.terminal import standard_streams
 
 if TYPE_CHECKING:
     from mindrun.files.atomic_write import Data
+    from mindrun.graph.graph import Graph
     from rich.console import Console, RenderableType
     from rich.text import Text
 
     from mindlang.compiler.compile import Compiled
+    from mindlang.compiler.diagnostic import Diagnostic
 
 OK, FINDINGS, MISUSE, INTERRUPTED = 0, 1, 2, 130  # how a program ends
 PIPE_COLUMNS = 1000
@@ -38,9 +42,15 @@ def console(stderr: bool = False) -> Console:
     return Console(stderr=stderr, force_terminal=False if plain else None, highlight=False, soft_wrap=True, width=width)
 
 
-def tell(*lines: str, quiet: bool = False) -> None:
-    """Print lines on stderr, unless it is to be quiet."""
-    for line in () if quiet else lines:
+def is_asked(flag: str) -> bool:
+    """True if the command that runs in this thread was given --json (`as_json`) or --quiet (`quiet`)."""
+    context = click.get_current_context(silent=True)
+    return context is not None and bool(context.meta.get(flag))
+
+
+def tell(*lines: str) -> None:
+    """Print lines on stderr."""
+    for line in lines:
         console(stderr=True).print(line, markup=False, emoji=False)
 
 
@@ -53,6 +63,22 @@ def complain(message: str, hint: str = "") -> None:
         console(stderr=True).print(Text(f"  {visible(hint)}"))
 
 
+def print_report(diagnostics: Sequence[Diagnostic], on: Console | None = None) -> None:
+    """Print diagnostics, on stderr unless on another console; after the first hundred only their number."""
+    if not diagnostics:
+        return
+    from rich.text import Text
+
+    from mindlang.cli._diagnostic_printer import segments
+    from mindlang.compiler.diagnostic import MAX_DIAGNOSTICS
+
+    on = on or console(stderr=True)
+    for diagnostic in diagnostics[:MAX_DIAGNOSTICS]:
+        on.print(Text.assemble(*segments(diagnostic)))
+    if len(diagnostics) > MAX_DIAGNOSTICS:
+        on.print(f"… and {len(diagnostics) - MAX_DIAGNOSTICS} more.")
+
+
 def fail(message: str, hint: str = "", code: int = FINDINGS) -> NoReturn:
     """Print what is wrong, in one line or several, and what to do about it on stderr, and end with `code`."""
     *first, last = message.split("\n")
@@ -63,17 +89,19 @@ def fail(message: str, hint: str = "", code: int = FINDINGS) -> NoReturn:
 
 
 @contextmanager
-def refusing(code: int = FINDINGS, end: str = "", of: type[MindError] = MindError) -> Iterator[None]:
-    """End the program with the message of an error of that class, and `end` behind it."""
+def refusing(
+    code: int = FINDINGS, end: str = "", of: type[MindError] | tuple[type[MindError], ...] = MindError
+) -> Iterator[None]:
+    """End the program with the message of an error of these classes, and `end` behind it."""
     try:
         yield
     except of as error:
         fail(f"{error}{end}", error.hint, code)
 
 
-def print_result(as_json: bool, data: object, text: Callable[[], RenderableType], end: str = "\n") -> None:
-    """Print the result of a command on stdout: its data as one JSON document, or else its text."""
-    if as_json:
+def print_result(data: object, text: Callable[[], RenderableType], end: str = "\n") -> None:
+    """Print the result of a command on stdout: its data as one JSON document where that is asked for, or its text."""
+    if is_asked("as_json"):
         print_json(data)
     else:
         console().print(text(), end=end)
@@ -179,16 +207,37 @@ def rewrite_source(file: str, old: str, new: str) -> None:
         rewrite(path, encode_source(path, new), encode_source(path, old))
 
 
+def known_skills(graph: Graph, *names: str) -> None:
+    """End the program where one of the names is that of no skill."""
+    from mindlang.compiler.diagnostic import did_you_mean
+
+    skills = [skill.name for skill in graph.skills]
+    for name in names:
+        if name not in skills:
+            fail(f"There is no skill {name}.", did_you_mean(name, skills), MISUSE)
+
+
+def need(package: str, what: str, extra: str) -> None:
+    """End the program where a package is not installed that an extra of mindlang brings along."""
+    if find_spec(package) is None:
+        fail(f"{what} {package}, which is not installed.", f"pip install 'mindlang[{extra}]'", MISUSE)
+
+
+def refuse_standard_input(file: str, why: str) -> None:
+    """End the program where what needs a file beside it is to be standard input."""
+    if file == "-":
+        fail(why, "Save it as a file.", MISUSE)
+
+
 def load_compiled(path: Path | str) -> Compiled:
     """The compiled file; one whose text has errors is reported to stderr, and ends the program (2 when unreadable).
 
     Of procedures that cannot be called nothing is said: who calls one does.
     """
-    from mindlang.cli._diagnostic_printer import print_report
     from mindlang.compiler.compile import load
 
     compiled = load(path)
     if compiled.graph is None:
-        print_report(compiled.diagnostics, console(stderr=True))
+        print_report(compiled.diagnostics)
         sys.exit(FINDINGS if compiled.readable else MISUSE)
     return compiled

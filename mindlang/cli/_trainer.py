@@ -22,7 +22,7 @@ from mindrun.train.run_folder import RunFolder, open_run, read_result
 from mindrun.train.scoring import Scorer
 from mindrun.train.training import Watch, train
 
-from mindlang.cli._session import ensure_compiled, on_ctrl_c
+from mindlang.cli._session import ensure_compiled
 from mindlang.cli._terminal import console, load_compiled, procedures_talk, tell
 from mindlang.cli._training_progress import LessonDisplay, TimeLeft
 from mindlang.executors import Where
@@ -158,11 +158,12 @@ class Trainer:
             if event_files:
                 event_files.report(record, now)
 
+        before = signal.signal(signal.SIGINT, stop)
         try:
-            with on_ctrl_c(stop):
-                watch = Watch(report, self._say, asked.is_set, perf_counter, pace.count_ahead)
-                return train(run, scorer, watch, executor)
+            watch = Watch(report, self._say, asked.is_set, perf_counter, pace.count_ahead)
+            return train(run, scorer, watch, executor)
         finally:
+            signal.signal(signal.SIGINT, before)
             if saying.is_alive():
                 saying.join()
             for each in (display, event_files):
@@ -180,7 +181,8 @@ class Trainer:
         return command_line("mindc", "train", "--resume", run.folder) + " --tensorboard" * self.event_files
 
     def _say(self, *lines: str) -> None:
-        tell(*lines, quiet=self.quiet)
+        if not self.quiet:
+            tell(*lines)
 
     def _print(self, result: Result) -> None:
         if self.as_json:

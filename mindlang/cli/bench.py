@@ -1,28 +1,5 @@
-"""`mindc bench`: many runs of a task for a figure that can be trusted, of one mind or of two on the same layouts."""
+"""`mindc bench`: many runs of a task for a figure that can be trusted, of one mind or of two on the same layouts.
 
-from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
-from functools import partial
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-import click
-from mindrun.processors import cores
-
-from mindlang.cli import _options as options
-from mindlang.cli._terminal import MISUSE, fail, load_compiled, print_result, refuse_unwritable, write_file
-
-if TYPE_CHECKING:
-    from mindrun.graph.policy import Policy
-    from mindrun.graph.run_scores import Scores
-
-    from mindlang.cli._session import Prepared, Ran, RunSession
-    from mindlang.executors import Where
-    from mindlang.run.tables import Table
-    from mindlang.run.worlds import World
-
-MAX_COMPARED = 2  # minds, or masters
-EXAMPLES = """\b
 Examples:
   mindc bench collect.mind
   mindc bench collect.mind --task Collect --runs 200 --seed 1
@@ -38,8 +15,32 @@ Examples:
   mindc bench collect.mind --runs 1000000 --on dask:scheduler.json
 """
 
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-@click.command(epilog=EXAMPLES)
+import click
+from mindrun.processors import cores
+
+from mindlang.cli import _options as options
+from mindlang.cli import _terminal as terminal
+from mindlang.cli._options import flag
+
+if TYPE_CHECKING:
+    from mindrun.graph.policy import Policy
+    from mindrun.graph.run_scores import Scores
+
+    from mindlang.cli._session import Prepared, Ran, RunSession
+    from mindlang.executors import Where
+    from mindlang.run.tables import Table
+    from mindlang.run.worlds import World
+
+MAX_COMPARED = 2  # minds, or masters
+
+
+@click.command
 @click.argument("files", nargs=-1, required=True, metavar="FILE [OTHER]")
 @options.OF_TASK
 @click.option("--runs", type=options.RUNS, default=200, show_default=True, help="How many layouts to run the task on.")
@@ -49,13 +50,13 @@ Examples:
     "--master masters", "SKILL", options.SKILLS, f"{options.IN_CHARGE} Twice: both are compared.", multiple=True
 )
 @options.ON(help="Who makes the runs: processes:N, ssh:HOST,HOST …")
-@options.unless("--no-interruption", "interrupt", "Go on to the last tick, whatever would end a run.")
-@click.option("--worlds", is_flag=True, help="Run in changed worlds as well: denser, weaker, noisier, delayed …")
-@click.option("--credit", is_flag=True, help="Run without each skill as well, or as OTHER has it: what is it worth?")
+@options.unless("--no-interruption interrupt", "Go on to the last tick, whatever would end a run.")
+@flag("--worlds", "Run in changed worlds as well: denser, weaker, noisier, delayed …")
+@flag("--credit", "Run without each skill as well, or as OTHER has it: what is it worth?")
 @options.written("--csv table", "PATH.csv", "Write a row for each run.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
-@click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
-def command(files: tuple[str, ...], masters: tuple[str, ...], workers: int | None, quiet: bool, **said: Any) -> None:
+@options.json_flag()
+@options.quiet_flag()
+def command(files: tuple[str, ...], masters: tuple[str, ...], workers: int | None, **said: Any) -> None:
     """Run a task of FILE on many layouts, for figures to trust.
 
     With the weights that its skills were taught. Runs the Python code of the file's procedures. Each run has a seed of
@@ -75,8 +76,8 @@ def command(files: tuple[str, ...], masters: tuple[str, ...], workers: int | Non
     from mindlang.cli._session import RunSession
 
     worlds, credit = said.pop("worlds"), said.pop("credit")
-    bench = Bench(RunSession(quiet), workers or cores(), **said)
-    refuse_unwritable(bench.table, ".csv")
+    bench = Bench(RunSession(), workers or cores(), **said)
+    terminal.refuse_unwritable(bench.table, ".csv")
     if bench.where is not None:
         options.refuse_ineffective("for the cores of this machine: with --on others make the runs", "workers")
     who = contenders(files, masters)
@@ -88,7 +89,7 @@ def command(files: tuple[str, ...], masters: tuple[str, ...], workers: int | Non
     elif len(who) > 1:
         bench.compare(who)
     else:
-        bench.measure(who[0])
+        bench.measure(who)
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +104,11 @@ class Contender:
 def contenders(files: Sequence[str], masters: Sequence[str]) -> list[Contender]:
     """The contenders: one mind, two minds, each with its own master if it has one, or one mind under two masters."""
     if len(files) > MAX_COMPARED or len(masters) > MAX_COMPARED:
-        fail("Two are compared, not more.", "mindc bench A.mind B.mind, or one FILE with --master X --master Y", MISUSE)
+        terminal.fail(
+            "Two are compared, not more.",
+            "mindc bench A.mind B.mind, or one FILE with --master X --master Y",
+            terminal.MISUSE,
+        )
     count = max(len(files), len(masters))
     asked: Sequence[str | None] = masters or [None]
     both = [(files[i % len(files)], asked[i % len(asked)]) for i in range(count)]
@@ -120,7 +125,7 @@ def learnt(file: str) -> "Policy":
     """What the skills of a mind have learnt."""
     from mindlang.lock.status import make_ready
 
-    compiled = load_compiled(file)
+    compiled = terminal.load_compiled(file)
     return make_ready(compiled.whole[1], compiled.sources).policy
 
 
@@ -136,24 +141,22 @@ class Bench:
     where: "Where | None"
     interrupt: bool
     table: Path | None
-    as_json: bool
 
-    def measure(self, who: Contender) -> None:
+    def measure(self, who: Sequence[Contender]) -> None:
         """Run one mind, and print its means."""
         from mindlang.run.outcome import over_at_once
         from mindlang.run.summary import bench_summary
         from mindlang.run.tables import runs_table
 
-        prepared = self._prepared(who, self.task)
+        (prepared,) = self._prepared(who)
         setup = prepared.setup
         task, seeds = setup.task, setup.layouts(self.seed, self.runs)
-        self.session.say(*(f"note: {note}" for note in setup.world_notes))
+        self.session.note(*setup.world_notes)
         scores, data = self._score(prepared, seeds)
-        self.session.say(*(f"note: {note}" for note in over_at_once(task, scores)))
+        self.session.note(*over_at_once(task, scores))
         found = {"task": task.name, "master": setup.master, "seed": self.seed, **self._by(), **data}
-        if self.table:
-            self._write(self.table, runs_table(task, scores, seeds), f"{len(seeds):,} runs")
-        print_result(self.as_json, found, lambda: bench_summary(found))
+        self._write(lambda: runs_table(task, scores, seeds), f"{len(seeds):,} runs")
+        terminal.print_result(found, lambda: bench_summary(found))
 
     def compare(self, who: Sequence[Contender]) -> None:
         """Run both on the same layouts, the second on the task of the first, and print what differs."""
@@ -161,24 +164,24 @@ class Bench:
         from mindlang.run.summary import comparison_summary
         from mindlang.run.tables import joined, runs_table
 
-        first = self._prepared(who[0], self.task)
-        second = self._prepared(who[1], first.setup.task.name)
-        is_one_world = first.setup.is_one_world and second.setup.is_one_world
-        seeds = max((each.setup.layouts(self.seed, self.runs) for each in (first, second)), key=len)
-        notes = differing_tasks(who[1].file, first.setup.task, second.setup.task)
-        self.session.say(*(f"note: {note}" for note in notes))
+        ready = self._prepared(who)
+        tasks = [each.setup.task for each in ready]
+        seeds = max((each.setup.layouts(self.seed, self.runs) for each in ready), key=len)
+        notes = differing_tasks(who[1].file, *tasks)
+        self.session.note(*notes)
         benched, minds = [], []
-        for each, prepared in zip(who, (first, second), strict=True):
+        for each, prepared in zip(who, ready, strict=True):
             scores, data = self._score(prepared, seeds, f"{each.name}: ")
             benched.append(Benched(each.name, prepared.setup.task, scores))
-            minds.append({"name": each.name, "file": each.file, "master": prepared.setup.master, **data})
-        compared = compare_minds(benched[0], benched[1], is_one_world)
-        found: dict[str, Any] = {"task": first.setup.task.name, "seed": self.seed, "runs": len(seeds), **self._by()}
+            minds.append(_named(each, prepared) | data)
+        compared = compare_minds(benched[0], benched[1], all(each.setup.is_one_world for each in ready))
+        found: dict[str, Any] = {"task": tasks[0].name, "seed": self.seed, "runs": len(seeds), **self._by()}
         found |= {"minds": minds, **compared.data(), "notes": notes}
-        if self.table:
-            rows = joined({each.name: runs_table(each.task, each.scores, seeds) for each in benched})
-            self._write(self.table, rows, f"2 × {len(seeds):,} runs")
-        print_result(self.as_json, found, lambda: comparison_summary(found, compared))
+        self._write(
+            lambda: joined({each.name: runs_table(each.task, each.scores, seeds) for each in benched}),
+            f"2 × {len(seeds):,} runs",
+        )
+        terminal.print_result(found, lambda: comparison_summary(found, compared))
 
     def in_worlds(self, who: Sequence[Contender]) -> None:
         """Run each mind as it was taught and in changed worlds, on the same layouts, and print what is left there."""
@@ -186,8 +189,7 @@ class Bench:
         from mindlang.run.tables import joined, runs_table
         from mindlang.run.worlds import world_rows
 
-        ready = [self._prepared(who[0], self.task)]
-        ready += [self._prepared(each, ready[0].setup.task.name) for each in who[1:]]
+        ready = self._prepared(who)
         cast = [(each, *there) for each, here in zip(who, ready, strict=True) for there in self._worlds(here)]
         task = ready[0].setup.task.name
         found: dict[str, dict[str, Any]] = {}
@@ -198,16 +200,13 @@ class Bench:
                 found.setdefault(world.name, {})[each.name] = {"changes": world.changes, **data}
                 if self.table:
                     tables.setdefault(world.name, {})[each.name] = runs_table(prepared.setup.task, scores, seeds)
-        minds = [
-            {"name": each.name, "file": each.file, "master": here.setup.master}
-            for each, here in zip(who, ready, strict=True)
-        ]
         data = {"task": task, "seed": self.seed, "runs": self.runs, **self._by()}
-        data |= {"minds": minds, "worlds": world_rows(found)}
-        if self.table:
-            rows = joined({name: joined(each) for name, each in tables.items()}, "world")
-            self._write(self.table, rows, f"{len(cast)} × {self.runs:,} runs")
-        print_result(self.as_json, data, lambda: worlds_summary(data))
+        data |= {"minds": [*map(_named, who, ready)], "worlds": world_rows(found)}
+        self._write(
+            lambda: joined({name: joined(each) for name, each in tables.items()}, "world"),
+            f"{len(cast)} × {self.runs:,} runs",
+        )
+        terminal.print_result(data, lambda: worlds_summary(data))
 
     def credit(self, who: Sequence[Contender]) -> None:
         """Run a mind whole, then without each of its skills on the same layouts, and print what each is worth.
@@ -215,20 +214,22 @@ class Bench:
         With another mind the skills are not silent in turn, but have the weights that they have there.
         """
         if len({each.file for each in who}) < len(who):
-            fail("Credit is given under one master.", "mindc bench FILE --credit", MISUSE)
+            terminal.fail("Credit is given under one master.", "mindc bench FILE --credit", terminal.MISUSE)
         from mindlang.run.credit import WHOLE, credit_of, given_back, silenced
         from mindlang.run.paired_difference import CONFIDENCE_LEVEL
         from mindlang.run.summary import credit_summary
         from mindlang.run.tables import joined, runs_table
         from mindlang.run.worlds import figure
 
-        whole = self._prepared(who[0], self.task)
+        (whole,) = self._prepared(who[:1])
         setup, policy = whole.setup, whole.setup.ready.policy
         task, seeds = setup.task, setup.layouts(self.seed, self.runs)
         if len(who) == 1:
             minds = silenced(policy, setup.master)
         elif not (minds := given_back(policy, learnt(who[1].file), setup.master)):
-            fail(f"No skill of {setup.master} in {who[0].file} has other weights in {who[1].file}.", code=MISUSE)
+            terminal.fail(
+                f"No skill of {setup.master} in {who[0].file} has other weights in {who[1].file}.", code=terminal.MISUSE
+            )
         cast = {WHOLE: whole} | {name: self._elsewhere(whole, each) for name, each in minds.items()}
         scores: dict[str, Scores] = {}
         data: dict[str, dict[str, Any]] = {}
@@ -241,10 +242,11 @@ class Bench:
         found = {"task": task.name, "master": setup.master, "seed": self.seed, **self._by(), **data[WHOLE]}
         found |= {"figure": figured, "confidence": CONFIDENCE_LEVEL, "left": left}
         found |= {"skills": [{"skill": name, **data[name], "credit": asdict(each)} for name, each in credited.items()]}
-        if self.table:
-            rows = {name: runs_table(task, each, seeds) for name, each in scores.items()}
-            self._write(self.table, joined(rows, left), f"{len(cast)} × {len(seeds):,} runs")
-        print_result(self.as_json, found, lambda: credit_summary(found, credited))
+        self._write(
+            lambda: joined({name: runs_table(task, each, seeds) for name, each in scores.items()}, left),
+            f"{len(cast)} × {len(seeds):,} runs",
+        )
+        terminal.print_result(found, lambda: credit_summary(found, credited))
 
     def _worlds(self, here: "Prepared") -> "Iterator[tuple[World, Prepared, list[int]]]":
         """The worlds for a mind, each with the simulator that makes its runs, and their seeds."""
@@ -260,9 +262,14 @@ class Bench:
         setup, quiet = here.setup.with_policy(policy), replace(self.session, quiet=True)
         return here._replace(setup=setup, rollout=quiet.simulator(setup, self.interrupt, self.workers, self.runs))
 
-    def _prepared(self, who: Contender, task: str | None) -> "Prepared":
-        chosen = options.RunChoice(task, self.seed, who.master, self.interrupt)
-        return self.session.prepare(who.file, chosen, self.workers, self.runs)
+    def _prepared(self, who: Sequence[Contender]) -> "list[Prepared]":
+        """Each mind and the simulator for it, all of them with the task of the first."""
+        ready: list[Prepared] = []
+        for each in who:
+            task = ready[0].setup.task.name if ready else self.task
+            chosen = options.RunChoice(task, self.seed, each.master, self.interrupt)
+            ready.append(self.session.prepare(each.file, chosen, self.workers, self.runs))
+        return ready
 
     def _score(
         self, prepared: "Prepared", seeds: Sequence[int], whose: str = "", ran: "Ran | None" = None
@@ -274,7 +281,7 @@ class Bench:
         from mindlang.executors import scorer_on
         from mindlang.executors.jobs import assignment_of
         from mindlang.run.outcome import bench_data, over_at_once
-        from mindlang.run.promises import FEW_TICKS, MAX_COUNTED_TICKS
+        from mindlang.run.promises import FEW_TICKS, MAX_COUNTED_TICKS, promises_in
 
         setup, rollout = prepared
         cast = setup.ready.policy, setup.task.name, setup.master, setup.folder
@@ -283,15 +290,21 @@ class Bench:
             scores, seconds, cpu = self.session.score(scorer, seeds, whose, ran)
         data = bench_data(setup.task, scores, seeds, seconds, None if self.where else cpu)
         data |= {"notes": setup.notes(rollout, *over_at_once(setup.task, scores))}
-        promises = self.session.promises(prepared, seeds, FEW_TICKS if ran else MAX_COUNTED_TICKS)
+        with terminal.procedures_talk():
+            promises = promises_in(rollout, setup.master, seeds, FEW_TICKS if ran else MAX_COUNTED_TICKS)
         return scores, data | ({"promises": promises} if promises else {})
 
     def _by(self) -> dict[str, int | str]:
         """The workers that make the runs, as data."""
         return {"workers": self.workers} if self.where is None else {"on": f"{self.where}"}
 
-    def _write(self, path: Path, table: "Table", runs: str) -> None:
+    def _write(self, rows: "Callable[[], Table]", runs: str) -> None:
         from mindlang.run.tables import csv_parts
 
-        write_file(path, csv_parts(table))
-        self.session.say(f"{path}: a row for each of {runs}")
+        if self.table:
+            terminal.write_file(self.table, csv_parts(rows()))
+            self.session.say(f"{self.table}: a row for each of {runs}")
+
+
+def _named(who: Contender, ready: "Prepared") -> dict[str, Any]:
+    return {"name": who.name, "file": who.file, "master": ready.setup.master}

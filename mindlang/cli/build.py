@@ -1,4 +1,11 @@
-"""`mindc build`: a mind with its weights in one file, for `python -m mindrun`."""
+"""`mindc build`: a mind with its weights in one file, for `python -m mindrun`.
+
+Examples:
+  mindc build collect.mind -o collect.bundle
+  mindc build collect.mind -o avoid.bundle --master Avoid
+  mindc build collect.mind -o collect.bundle --json
+  mindc build ball.mind --robot robot.yaml -o ball.bundle
+"""
 
 from __future__ import annotations
 
@@ -10,10 +17,9 @@ from typing import TYPE_CHECKING
 import click
 from mindrun.errors import MindError
 
-from mindlang.cli._diagnostic_printer import print_report
-from mindlang.cli._options import PATH, SKILLS, named, written
-from mindlang.cli._terminal import FINDINGS, MISUSE, complain, console, fail, load_compiled, print_json, writing
-from mindlang.compiler.diagnostic import did_you_mean, listed
+from mindlang.cli import _terminal as terminal
+from mindlang.cli._options import PATH, SKILLS, json_flag, named, quiet_flag, written
+from mindlang.compiler.diagnostic import listed
 
 if TYPE_CHECKING:
     from mindrun.graph.graph import Graph
@@ -22,23 +28,15 @@ if TYPE_CHECKING:
     from mindlang.compiler.model import Mind
     from mindlang.lock.status import ReadyMind
 
-EXAMPLES = """\b
-Examples:
-  mindc build collect.mind -o collect.bundle
-  mindc build collect.mind -o avoid.bundle --master Avoid
-  mindc build collect.mind -o collect.bundle --json
-  mindc build ball.mind --robot robot.yaml -o ball.bundle
-"""
 
-
-@click.command(epilog=EXAMPLES)
+@click.command
 @click.argument("file")
 @written("-o --output", "PATH", "The bundle: -o collect.bundle", required=True)
 @named("--master", "SKILL", SKILLS, "Another skill in charge: --master Avoid")
 @click.option("--robot", type=PATH, metavar="FILE", help="What it is wired to: --robot robot.yaml")
-@click.option("--json", "as_json", is_flag=True, help="Say what was built as one JSON document: --json")
-@click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors: -q")
-def command(file: str, output: Path, master: str | None, robot: Path | None, as_json: bool, quiet: bool) -> None:
+@json_flag("Say what was built as one JSON document: --json")
+@quiet_flag("Print nothing but errors: -q")
+def command(file: str, output: Path, master: str | None, robot: Path | None) -> None:
     """Build a bundle of FILE, the one file that runs on a robot.
 
     It holds the hierarchy, the weights of every skill that can act, and the text of its procedures. With --robot also
@@ -48,31 +46,32 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     """
     from mindrun.engine.engine import procedure_sources
     from mindrun.graph.bundle import Bundle, write_bundle
+    from mindrun.graph.wiring import reckoned
 
     from mindlang.lock.status import make_ready
 
-    compiled = load_compiled(file)
+    compiled = terminal.load_compiled(file)
     (mind, graph), folder = compiled.whole, compiled.sources[0].folder
-    skills = [skill.name for skill in graph.skills]
-    if master is not None and master not in skills:
-        fail(f"There is no skill {master}.", did_you_mean(master, skills), MISUSE)
+    terminal.known_skills(graph, master or graph.master)
     graph = replace(graph, master=master or graph.master)
     _refuse_procedures(graph, mind, folder)
     wiring = _wiring(robot, graph, mind.unit_metres) if robot else None
     try:
-        with writing(output, FINDINGS):
+        with terminal.writing(output, terminal.FINDINGS):
             ready = make_ready(graph, compiled.sources)
             _refuse_missing(ready, file)
             procedures = procedure_sources(ready.policy.graph, folder)
             digest = write_bundle(output, Bundle(ready.policy, procedures, wiring))
     except MindError as error:
-        fail(str(error), code=MISUSE)
-    notes = [*ready.notes, *_needed_modules(ready, folder), *_reckoned(wiring, graph)]
+        terminal.fail(str(error), code=terminal.MISUSE)
+    servos = reckoned(wiring, graph) if wiring else {}
+    without = [f"{sensor} has no driver: it is reckoned from what {servo} is sent" for sensor, servo in servos.items()]
+    notes = [*ready.notes, *_needed_modules(ready, folder), *without]
     for note in notes:
-        complain(f"note: {note}")
-    if as_json:
-        print_json(_built(output, digest, ready, wiring) | {"notes": notes})
-    elif not quiet:
+        terminal.complain(f"note: {note}")
+    if terminal.is_asked("as_json"):
+        terminal.print_json(_built(output, digest, ready, wiring) | {"notes": notes})
+    elif not terminal.is_asked("quiet"):
         count, wired = len(ready.policy.weights), f", wired to {wiring.robot}" if wiring else ""
         taught = f"{count} trained skill{'s' * (count != 1)}"
         click.echo(f"{output}: {ready.policy.graph.master} in charge, {taught}{wired}", err=True)
@@ -82,10 +81,8 @@ def _refuse_missing(ready: ReadyMind, file: str) -> None:
     """End the program where a skill that can act has no weights that fit."""
     from mindlang.run.setup import train_command
 
-    for refusal in ready.refusals[:-1]:
-        complain(refusal)
     if ready.refusals:
-        fail(ready.refusals[-1], train_command(Path(file), ready))
+        terminal.fail("\n".join(ready.refusals), train_command(Path(file), ready))
 
 
 def _needed_modules(ready: ReadyMind, folder: Path) -> list[str]:
@@ -99,14 +96,6 @@ def _needed_modules(ready: ReadyMind, folder: Path) -> list[str]:
     return [f"the robot needs {listed(needed, 'and')}, which no bundle holds"] if needed else []
 
 
-def _reckoned(wiring: Wiring | None, graph: Graph) -> list[str]:
-    """A sentence for each sensor that nothing measures on the robot."""
-    from mindrun.graph.wiring import reckoned
-
-    known = reckoned(wiring, graph).items() if wiring else ()
-    return [f"{sensor} has no driver: it is reckoned from what {servo} is sent" for sensor, servo in known]
-
-
 def _refuse_procedures(graph: Graph, mind: Mind, folder: Path) -> None:
     """Say what `check` says of procedures; end the program where one that travels cannot be what its skill needs."""
     from mindrun.graph.skill_sets import reachable
@@ -116,9 +105,9 @@ def _refuse_procedures(graph: Graph, mind: Mind, folder: Path) -> None:
     travelling = reachable(graph, graph.master)
     found = [*mistakes(travelling, mind, folder)]
     left = mistakes([skill for skill in graph.skills if skill not in travelling], mind, folder)
-    print_report([*found, *(replace(each, severity="warning") for each in left)], console(stderr=True))
+    terminal.print_report([*found, *(replace(each, severity="warning") for each in left)])
     if any(each.severity == "error" for each in found):
-        sys.exit(FINDINGS)
+        sys.exit(terminal.FINDINGS)
 
 
 def _wiring(path: Path, graph: Graph, unit_metres: float | None) -> Wiring:
@@ -126,9 +115,9 @@ def _wiring(path: Path, graph: Graph, unit_metres: float | None) -> Wiring:
     from mindlang.robot.wire import load_wiring
 
     checked = load_wiring(path, graph, unit_metres)
-    print_report(checked.diagnostics, console(stderr=True))
+    terminal.print_report(checked.diagnostics)
     if checked.wiring is None:
-        sys.exit(FINDINGS if checked.readable else MISUSE)
+        sys.exit(terminal.FINDINGS if checked.readable else terminal.MISUSE)
     return checked.wiring
 
 

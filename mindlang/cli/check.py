@@ -1,4 +1,14 @@
-"""`mindc check`: is everything in these files right?"""
+"""`mindc check`: is everything in these files right?
+
+Examples:
+  mindc check collect.mind
+  mindc check .
+  mindc check examples/*.mind --json
+  mindc check collect.break                    against collect.mind beside it
+  mindc check collect.mind wheels.break --task Collect
+  mindc check day.break ball.bundle            on the robot that it drives
+  cat collect.mind | mindc check -
+"""
 
 import sys
 from collections.abc import Iterator, Mapping, Sequence
@@ -10,26 +20,13 @@ import click
 from mindrun.terminal.command_line import command_line
 
 from mindlang.breakpoints import SUFFIX
-from mindlang.cli._diagnostic_printer import as_data, print_report
-from mindlang.cli._options import SKILLS, TASKS, files_of, in_files, named
-from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_json, refusing, tell
+from mindlang.cli._diagnostic_printer import as_data
+from mindlang.cli._options import SKILLS, TASKS, files_of, in_files, json_flag, named
+from mindlang.cli._terminal import FINDINGS, MISUSE, OK, is_asked, print_json, print_report, refusing, tell
 from mindlang.compiler.diagnostic import Diagnostic, distinct
 
 if TYPE_CHECKING:
-    from mindrun.graph.bundle import Bundle
-
     from mindlang.compiler.compile import Compiled
-
-EXAMPLES = """\b
-Examples:
-  mindc check collect.mind
-  mindc check .
-  mindc check examples/*.mind --json
-  mindc check collect.break                    against collect.mind beside it
-  mindc check collect.mind wheels.break --task Collect
-  mindc check day.break ball.bundle            on the robot that it drives
-  cat collect.mind | mindc check -
-"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,12 +39,12 @@ class _Checked:
     is_whole: bool = True
 
 
-@click.command(epilog=EXAMPLES)
+@click.command
 @click.argument("files", nargs=-1, required=True, metavar="FILE_OR_FOLDER…")
 @named("--task", "TASK", TASKS, "What .break files are about. Default: as of mindc run.")
 @named("--master", "SKILL", SKILLS, "Who is in charge then. Default: as of mindc run.")
-@click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc check collect.mind --json")
-def command(files: tuple[str, ...], task: str | None, master: str | None, as_json: bool) -> None:
+@json_flag("One JSON document instead: mindc check collect.mind --json")
+def command(files: tuple[str, ...], task: str | None, master: str | None) -> None:
     """Read files, and report everything that is wrong in them.
 
     A folder is the .mind and .break files in it and below; hidden folders, runs and build are left out.
@@ -69,11 +66,11 @@ def command(files: tuple[str, ...], task: str | None, master: str | None, as_jso
     checked += [*_breakpoints(breaks, bundles, compiled, task, master)]
     found = distinct(diagnostic for each in checked for diagnostic in each.diagnostics)
     _note_speeds(compiled)
-    if as_json:
+    if is_asked("as_json"):
         of_files = [{"file": each.file, "ok": each.is_whole and not each.diagnostics} for each in checked]
         print_json({"files": of_files, "diagnostics": [as_data(diagnostic) for diagnostic in found]})
     elif found:
-        print_report(found, console(stderr=True))
+        print_report(found)
         click.echo(f"{len(found)} mistake{'s' if len(found) > 1 else ''}{in_files(files, named)}", err=True)
     else:
         click.echo(f"nothing wrong{in_files(files, named)}", err=True)
@@ -97,13 +94,16 @@ def _breakpoints(
     """The files of breakpoints, each against every bundle, or else a mind; it is said where there is neither."""
     if not files:
         return
+    if bundles:
+        from mindrun.graph.bundle import read_bundle  # which needs numpy
+
     from mindlang.breakpoints.resolve import load_breakpoints
     from mindlang.breakpoints.subject import mind_of, subject_of_bundle, subject_of_mind
 
     for file in dict.fromkeys(files):
         mind = None if bundles else mind_of(file, given)
         with refusing(MISUSE):
-            subjects = [subject_of_bundle(_bundle(path), task, master) for path in bundles]
+            subjects = [subject_of_bundle(read_bundle(Path(path)), task, master) for path in bundles]
             subjects += [subject_of_mind(mind, task, master)] if mind else []
         if not subjects:
             hint = f"{command_line('mindc', 'check', 'NAME.mind', Path(file))} looks for the names in it, too"
@@ -111,9 +111,3 @@ def _breakpoints(
         for subject in subjects or (None,):
             found = load_breakpoints(file, subject).diagnostics
             yield _Checked(file, found, all(each.span for each in found))
-
-
-def _bundle(path: str) -> "Bundle":
-    from mindrun.graph.bundle import read_bundle  # which needs numpy
-
-    return read_bundle(Path(path))

@@ -1,20 +1,20 @@
-"""`mindc completion`: click's script with which a shell completes the words of mindc, and names of files."""
+"""`mindc completion`: click's script with which a shell completes the words of mindc, and names of files.
+
+Examples:
+  mindc completion bash >> ~/.bashrc
+  mindc completion zsh >> ~/.zshrc
+  mindc completion fish > ~/.config/fish/completions/mindc.fish
+"""
 
 import click
 from click import shell_completion as shells
 
 from mindlang.cli._terminal import print_document
 
-EXAMPLES = """\b
-Examples:
-  mindc completion bash >> ~/.bashrc
-  mindc completion zsh >> ~/.zshrc
-  mindc completion fish > ~/.config/fish/completions/mindc.fish
-"""
 SHELLS = {"bash": shells.BashComplete, "zsh": shells.ZshComplete, "fish": shells.FishComplete}
 
 
-@click.command(epilog=EXAMPLES)
+@click.command
 @click.argument("shell", type=click.Choice(tuple(SHELLS)))
 @click.pass_context
 def command(context: click.Context, shell: str) -> None:

@@ -1,4 +1,12 @@
-"""`mindc deploy`: a bundle brought to a robot, and back to the one before."""
+"""`mindc deploy`: a bundle brought to a robot, and back to the one before.
+
+Examples:
+  mindc deploy ball.bundle pi@robot.local
+  mindc deploy ball.bundle pi@robot.local --arm-service
+  mindc deploy ball.bundle pi@robot.local --dry-run
+  mindc deploy pi@robot.local --list
+  mindc deploy pi@robot.local --rollback
+"""
 
 from datetime import UTC, datetime
 from pathlib import Path
@@ -8,8 +16,8 @@ import click
 from mindrun.errors import BundleError
 from mindrun.files.printable import visible
 
-from mindlang.cli import _options as options
-from mindlang.cli._terminal import INTERRUPTED, MISUSE, fail, print_json, refusing, tell
+from mindlang.cli._options import flag, json_flag, quiet_flag, unless
+from mindlang.cli._terminal import INTERRUPTED, MISUSE, fail, is_asked, print_json, refusing, tell
 
 if TYPE_CHECKING:
     from mindrun.graph.bundle import Bundle
@@ -17,33 +25,22 @@ if TYPE_CHECKING:
     from mindlang.robot.deployment import DeployResult, ReleaseState, Settings
     from mindlang.robot.remote import RemoteRobot
 
-EXAMPLES = """\b
-Examples:
-  mindc deploy ball.bundle pi@robot.local
-  mindc deploy ball.bundle pi@robot.local --arm-service
-  mindc deploy ball.bundle pi@robot.local --dry-run
-  mindc deploy pi@robot.local --list
-  mindc deploy pi@robot.local --rollback
-"""
 
-
-@click.command(epilog=EXAMPLES)
+@click.command
 @click.argument("words", nargs=-1, required=True, metavar="[BUNDLE] HOST")
-@click.option("--rollback", is_flag=True, help="Go back to the release before: --rollback")
-@click.option("--list", "as_list", is_flag=True, help="Show the releases that are there: --list")
-@click.option("--arm-service", "armed", is_flag=True, help="The service moves the robot, at every start: --arm-service")
-@options.unless("--no-service", "service", "No service runs it, an older one is removed: --no-service")
+@flag("--rollback", "Go back to the release before: --rollback")
+@flag("--list as_list", "Show the releases that are there: --list")
+@flag("--arm-service armed", "The service moves the robot, at every start: --arm-service")
+@unless("--no-service service", "No service runs it, an older one is removed: --no-service")
 @click.option("--keep", type=click.IntRange(2, 1000), default=3, show_default=True, help="Releases that stay: --keep 5")
 @click.option(
     "--watch", type=click.IntRange(0, 60), default=5, show_default=True, help="Seconds to see it run: --watch 10"
 )
-@options.unless("--no-auto-rollback", "go_back", "Stay with a release that does not run: --no-auto-rollback")
-@click.option("--dry-run", is_flag=True, help="Say what would be done, and do nothing: --dry-run")
-@click.option("--json", "as_json", is_flag=True, help="Say what came of it as one JSON document: --json")
-@click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors: -q")
-def command(
-    words: tuple[str, ...], rollback: bool, as_list: bool, dry_run: bool, as_json: bool, quiet: bool, **said: Any
-) -> None:
+@unless("--no-auto-rollback go_back", "Stay with a release that does not run: --no-auto-rollback")
+@flag("--dry-run", "Say what would be done, and do nothing: --dry-run")
+@json_flag("Say what came of it as one JSON document: --json")
+@quiet_flag("Print nothing but errors: -q")
+def command(words: tuple[str, ...], rollback: bool, as_list: bool, dry_run: bool, **said: Any) -> None:
     """Bring BUNDLE to HOST over ssh, and start it as a service.
 
     It is copied with rsync, verified there, and made current in one step. The service is not armed, that is it moves
@@ -54,11 +51,10 @@ def command(
     from mindlang.robot.deployment import Deployment, Settings
     from mindlang.robot.remote import check_host, check_tools, connected
 
-    def report(message: str) -> None:
-        if not quiet:
-            click.echo(message, err=True)
-
-    path, host = _path_and_host(words, rollback or as_list)
+    *bundles, host = words
+    if len(bundles) > 1 or not (bundles or rollback or as_list):
+        raise click.UsageError("Write mindc deploy BUNDLE HOST, or mindc deploy HOST with --rollback or --list.")
+    path = Path(bundles[0]) if bundles and not (rollback or as_list) else None
     settings = Settings(**said)
     if (rollback and as_list) or (settings.armed and not settings.service):
         raise click.UsageError("--rollback and --list, like --arm-service and --no-service, exclude each other.")
@@ -69,18 +65,23 @@ def command(
             check_tools()
             with connected(host) as robot:
                 if as_list:
-                    _list(robot, as_json)
+                    _list(robot)
                     return
-                deployment = Deployment(robot, settings, report, dry_run)
+                deployment = Deployment(robot, settings, _report, dry_run)
                 done = deployment.deploy(path, bundle, datetime.now(UTC)) if path and bundle else deployment.roll_back()
     except KeyboardInterrupt:
         whole = "Interrupted: the robot has the old release or the new one, whole."
         fail(whole, "The same command goes on.", INTERRUPTED)
     tell(*(f"note: {note}" for note in done.notes))
-    if as_json:
+    if is_asked("as_json"):
         print_json(_result(host, done, settings, dry_run))
     elif not dry_run:
-        report(f"{host} has {done.release}")
+        _report(f"{host} has {done.release}")
+
+
+def _report(message: str) -> None:
+    if not is_asked("quiet"):
+        click.echo(message, err=True)
 
 
 def _result(host: str, done: "DeployResult", settings: "Settings", dry_run: bool) -> dict[str, object]:
@@ -88,15 +89,6 @@ def _result(host: str, done: "DeployResult", settings: "Settings", dry_run: bool
     service = {"unit": "mind.service", "armed": settings.armed} if settings.service else None
     said = {"host": host, "dry_run": dry_run, "release": done.release or None, "before": done.before or None}
     return {**said, "service": service, "notes": list(done.notes)}
-
-
-def _path_and_host(words: tuple[str, ...], without: bool) -> tuple[Path | None, str]:
-    match words:
-        case (*_, host) if without and len(words) <= 2:
-            return None, host
-        case (bundle, host):
-            return Path(bundle), host
-    raise click.UsageError("Write mindc deploy BUNDLE HOST, or mindc deploy HOST with --rollback or --list.")
 
 
 def _checked(path: Path, settings: "Settings") -> "Bundle":
@@ -113,11 +105,11 @@ def _checked(path: Path, settings: "Settings") -> "Bundle":
     return bundle
 
 
-def _list(robot: "RemoteRobot", as_json: bool) -> None:
+def _list(robot: "RemoteRobot") -> None:
     from mindlang.robot.deployment import read_state
 
     state = read_state(robot)
-    if as_json:
+    if is_asked("as_json"):
         print_json(_listed(state))
         return
     for each in state.releases:

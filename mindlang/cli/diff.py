@@ -1,23 +1,23 @@
-"""`mindc diff`: what changed in meaning between two minds, and which weights survive it."""
+"""`mindc diff`: what changed in meaning between two minds, and which weights survive it.
 
-import sys
-
-import click
-
-from mindlang.cli._terminal import FINDINGS, OK, load_compiled, print_result
-
-EXAMPLES = """\b
 Examples:
   mindc diff old/collect.mind collect.mind
   git show HEAD:collect.mind | mindc diff - collect.mind
 """
 
+import sys
 
-@click.command(epilog=EXAMPLES)
+import click
+
+from mindlang.cli._options import json_flag
+from mindlang.cli._terminal import FINDINGS, OK, load_compiled, print_result
+
+
+@click.command
 @click.argument("old")
 @click.argument("new")
-@click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc diff a.mind b.mind --json")
-def command(old: str, new: str, as_json: bool) -> None:
+@json_flag("One JSON document instead: mindc diff a.mind b.mind --json")
+def command(old: str, new: str) -> None:
     """Show what changed in meaning from OLD to NEW.
 
     And which weights fit NEW: those of its lock, or else of OLD's. Comments, spaces, the order of lines and other
@@ -48,5 +48,5 @@ def command(old: str, new: str, as_json: bool) -> None:
         "differences": [{"what": each.what, "gone": [*each.gone], "new": [*each.new]} for each in found],
         "skills": [as_data(row) for row in standing],
     }
-    print_result(as_json, data, text, end="")
+    print_result(data, text, end="")
     sys.exit(FINDINGS if found else OK)

@@ -1,4 +1,9 @@
-"""`mindc doctor`: what is installed here, what is missing, and what mends it."""
+"""`mindc doctor`: what is installed here, what is missing, and what mends it.
+
+Examples:
+  mindc doctor
+  mindc doctor --json
+"""
 
 import sys
 from dataclasses import asdict
@@ -6,19 +11,15 @@ from dataclasses import asdict
 import click
 from mindrun.files.printable import visible
 
-from mindlang.cli._terminal import FINDINGS, OK, console, print_json, text_columns
+from mindlang.cli._options import json_flag
+from mindlang.cli._terminal import FINDINGS, OK, console, is_asked, print_json, text_columns
 
-EXAMPLES = """\b
-Examples:
-  mindc doctor
-  mindc doctor --json
-"""
 MARKS = {"ok": ("ok ", "green"), "absent": ("-  ", "dim"), "wrong": ("NOT", "red")}
 
 
-@click.command(epilog=EXAMPLES)
-@click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc doctor --json")
-def command(as_json: bool) -> None:
+@click.command
+@json_flag("One JSON document instead: mindc doctor --json")
+def command() -> None:
     """Say what is installed here, what is missing, what mends it.
 
     `ok` is as it should be, `-` is absent and only needed for what is said, `NOT` has to be mended. Changes nothing.
@@ -30,7 +31,7 @@ def command(as_json: bool) -> None:
 
     found = list(findings())
     wrong = sum(each.state == "wrong" for each in found)
-    if as_json:
+    if is_asked("as_json"):
         print_json({"ok": not wrong, "checks": [asdict(each) for each in found]})
     else:
         rows = [

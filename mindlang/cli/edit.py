@@ -1,27 +1,5 @@
-"""`mindc edit`: every edit is a command, built from the signature of its function; `undo` takes the last one back."""
+"""`mindc edit`: every edit is a command, built from the signature of its function; `undo` takes the last one back.
 
-from __future__ import annotations
-
-import os
-import sys
-from functools import partial
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
-
-import click
-
-from mindlang.cli import Suggesting
-from mindlang.cli import _terminal as terminal
-from mindlang.cli._diagnostic_printer import as_data, print_report
-from mindlang.cli._options import SKILLS, declared
-from mindlang.compiler.diagnostic import Diagnostic, listed
-
-if TYPE_CHECKING:
-    from mindlang.editing.apply import Edited
-    from mindlang.editing.edits import Edit, EditOption
-    from mindlang.editing.transaction import Files
-
-EXAMPLES = """\b
 Examples:
   mindc edit rename collect.mind Avoid Dodge --noun skill
   mindc edit encapsulate collect.mind Collect CarefulCollect \\
@@ -29,12 +7,24 @@ Examples:
   mindc edit undo collect.mind                 takes that back
 """
 
-UNDO_EXAMPLES = """\b
-Examples:
-  mindc edit undo
-  mindc edit undo examples/collect
-  mindc edit undo examples/collect/collect.mind
-"""
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from mindlang.cli import Suggesting
+from mindlang.cli import _terminal as terminal
+from mindlang.cli._diagnostic_printer import as_data
+from mindlang.cli._options import SKILLS, declared, flag, json_flag
+from mindlang.compiler.diagnostic import listed
+
+if TYPE_CHECKING:
+    from mindlang.editing.apply import Edited
+    from mindlang.editing.edits import Edit, EditOption
 
 
 UNDO = "undo"
@@ -57,16 +47,14 @@ class Edits(Suggesting):
 
         return sorted([*names(), UNDO])
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+    def load(self, name: str) -> click.Command:
         """The edit of that name as a command."""
         from mindlang.editing.edits import edit
 
-        if cmd_name == UNDO:
-            return undo
-        return _command(edit(cmd_name)) if cmd_name in self.list_commands(ctx) else None
+        return undo if name == UNDO else _command(edit(name))
 
 
-@click.group(cls=Edits, epilog=EXAMPLES)
+@click.group(cls=Edits)
 def command() -> None:
     """Edit a hierarchy in its source.
 
@@ -76,30 +64,28 @@ def command() -> None:
 
 def _command(of: Edit) -> click.Command:
     """A click command with the parameters of an edit, and those that all of them have."""
-    parameters = [
-        click.Argument(["file"]),
-        *(
-            click.Argument([name], nargs=-1 if many else 1, required=True, shell_complete=NAMED.get(name))
-            for name, many in of.arguments
-        ),
-        *(_option(option) for option in of.options),
-        click.Option(["--write"], is_flag=True, help="Make the edit, and not only print it."),
-        click.Option(
-            ["--anyway"], is_flag=True, help="Make it even where a mind that uses this one no longer compiles.",
-        ),
-        click.Option(
-            ["--keep-weights"], is_flag=True,
-            help="Let a skill that reads or influences more go on as it was taught: weights of zero for what is new.",
-        ),
-        click.Option(
-            ["--verify"], is_flag=True,
-            help="Run every trained skill before and after on the same readings, and refuse what changes one of them.",
-        ),
-        click.Option(["--json", "as_json"], is_flag=True, help="One JSON document instead."),
-    ]  # fmt: skip
-    return click.Command(
-        of.name, params=parameters, callback=partial(_perform, of), help=of.text, epilog=f"\b\n{of.example}"
+    arguments = (
+        click.Argument([name], nargs=-1 if many else 1, required=True, shell_complete=NAMED.get(name))
+        for name, many in of.arguments
     )
+    own = [click.Argument(["file"]), *arguments, *map(_option, of.options)]
+
+    @click.command(of.name, params=own, help=of.text, epilog=f"\b\n{of.example}")
+    @flag("--write", "Make the edit, and not only print it.")
+    @flag("--anyway", "Make it even where a mind that uses this one no longer compiles.")
+    @flag(
+        "--keep-weights",
+        "Let a skill that reads or influences more go on as it was taught: weights of zero for what is new.",
+    )
+    @flag(
+        "--verify",
+        "Run every trained skill before and after on the same readings, and refuse what changes one of them.",
+    )
+    @json_flag("One JSON document instead.")
+    def called(**said: Any) -> None:
+        _perform(of, **said)
+
+    return called
 
 
 def _file_first(of: Edit, first: str, said: dict[str, Any]) -> tuple[str, dict[str, Any]]:
@@ -129,9 +115,7 @@ def _option(option: EditOption) -> click.Option:
     return click.Option(flags, multiple=option.many, default=default, help=option.help, shell_complete=names)
 
 
-def _perform(
-    of: Edit, file: str, write: bool, anyway: bool, keep_weights: bool, verify: bool, as_json: bool, **said: Any
-) -> None:
+def _perform(of: Edit, file: str, write: bool, anyway: bool, keep_weights: bool, verify: bool, **said: Any) -> None:
     """Make an edit of a file, or only show it; an impossible one ends the program with its reason."""
     from mindlang.editing.apply import apply_edit
     from mindlang.editing.apply import write as write_edited
@@ -153,21 +137,17 @@ def _perform(
         if write:
             write_edited(edited)
     except EditError as error:
-        _refuse(error.diagnostic, as_json)
-    if as_json:
+        if terminal.is_asked("as_json"):
+            terminal.print_json({"diagnostics": [as_data(error.diagnostic)]})
+        else:
+            terminal.print_report([error.diagnostic])
+        sys.exit(terminal.FINDINGS)
+    if terminal.is_asked("as_json"):
         terminal.print_json({"diff": diff(edited), "written": write, "weights": sentences})
         return
     if not write:
         terminal.print_diff(diff(edited))
     terminal.tell(*sentences, _ending(edited, write))
-
-
-def _refuse(diagnostic: Diagnostic, as_json: bool) -> NoReturn:
-    if as_json:
-        terminal.print_json({"diagnostics": [as_data(diagnostic)]})
-    else:
-        print_report([diagnostic], terminal.console(stderr=True))
-    sys.exit(terminal.FINDINGS)
 
 
 def _verified(edited: Edited) -> str:
@@ -191,17 +171,24 @@ def _ending(edited: Edited, is_written: bool) -> str:
     return f"nothing has been written: --write makes this edit{also}"
 
 
-@click.command(epilog=UNDO_EXAMPLES)
+@click.command
 @click.argument("place", default=".", metavar="[FILE_OR_FOLDER]")
-@click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc edit undo --json")
-def undo(place: str, as_json: bool) -> None:
+@json_flag("One JSON document instead: mindc edit undo --json")
+def undo(place: str) -> None:
     """Take back the edit that was last written in a folder.
 
     Sources, locks and weights become what they were before it, together or not at all. Without FILE_OR_FOLDER it is the
     working directory. Where one of the files has been changed since, nothing is. Edits before the last are not kept.
+
+    Examples:
+      mindc edit undo
+      mindc edit undo examples/collect
+      mindc edit undo examples/collect/collect.mind
     """
+    from mindlang.compiler.source import decode_source
     from mindlang.editing.transaction import TransactionError, noted_in
     from mindlang.editing.transaction import undo as take_back
+    from mindlang.editing.unified_diff import unified
 
     here = Path(place).absolute()
     if not here.exists():
@@ -213,21 +200,13 @@ def undo(place: str, as_json: bool) -> None:
         terminal.fail(none, "Name the file that was edited: mindc edit undo FILE")
     with terminal.refusing(end=".", of=TransactionError):
         were, are = take_back(folder)
-    names = [path.relative_to(folder).as_posix() for end in (".mind", ".lock") for path in are if path.suffix == end]
-    if as_json:
-        terminal.print_json({"diff": _undone(folder, were, are), "folder": str(folder), "written": names})
+    names = {
+        path: path.relative_to(folder).as_posix() for end in (".mind", ".lock") for path in are if path.suffix == end
+    }
+    sources = ((names[path], were[path], are[path]) for path in are if path.suffix == ".mind")
+    diff = "".join(unified(name, decode_source(was or b""), decode_source(now or b"")) for name, was, now in sources)
+    if terminal.is_asked("as_json"):
+        terminal.print_json({"diff": diff, "folder": str(folder), "written": [*names.values()]})
         return
-    terminal.print_diff(_undone(folder, were, are))
-    terminal.tell(f"taken back: {listed(names, 'and')}")
-
-
-def _undone(folder: Path, were: Files, are: Files) -> str:
-    """The unified diff of the sources."""
-    from mindlang.compiler.source import decode_source
-    from mindlang.editing.unified_diff import unified
-
-    sources = {path: path.relative_to(folder).as_posix() for path in are if path.suffix == ".mind"}
-    texts = (
-        (name, decode_source(were[path] or b""), decode_source(are[path] or b"")) for path, name in sources.items()
-    )
-    return "".join(unified(*each) for each in texts)
+    terminal.print_diff(diff)
+    terminal.tell(f"taken back: {listed([*names.values()], 'and')}")

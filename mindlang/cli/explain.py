@@ -1,12 +1,5 @@
-"""`mindc explain`: what is this, and what is to be done about it?"""
+"""`mindc explain`: what is this, and what is to be done about it?
 
-import click
-from mindrun.files.printable import visible
-
-from mindlang.cli._options import one_of
-from mindlang.cli._terminal import MISUSE, fail, print_result
-
-EXAMPLES = """\b
 Examples:
   mindc explain
   mindc explain wheel
@@ -18,6 +11,12 @@ Examples:
   mindc explain unread-sensor --json
 """
 
+import click
+from mindrun.files.printable import visible
+
+from mindlang.cli._options import json_flag, one_of
+from mindlang.cli._terminal import MISUSE, fail, print_result
+
 
 def _names() -> dict[str, str]:
     """The names of all articles, with the sort of each."""
@@ -27,10 +26,10 @@ def _names() -> dict[str, str]:
     return {each.name: each.sort for each in (*command_articles(), *articles())}
 
 
-@click.command(epilog=EXAMPLES)
+@click.command
 @click.argument("name", nargs=-1, shell_complete=one_of(_names))
-@click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc explain comma --json")
-def command(name: tuple[str, ...], as_json: bool) -> None:
+@json_flag("One JSON document instead: mindc explain comma --json")
+def command(name: tuple[str, ...]) -> None:
     """Say what NAME means; without NAME list all codes.
 
     NAME is a kind (wheel), a driver (ultrasonic), a word of the language (teaches), a command of mindc or mindrun
@@ -46,7 +45,7 @@ def command(name: tuple[str, ...], as_json: bool) -> None:
 
     if not name:
         data = {"articles": [article_data(each) for each in codes().values()]}
-        print_result(as_json, data, lambda: Text.assemble(*code_list(codes().values())), end="")
+        print_result(data, lambda: Text.assemble(*code_list(codes().values())), end="")
         return
     asked = " ".join(" ".join(name).strip("[]").split())
     known = find_articles(asked, articles()) or find_articles(asked, [*command_articles()])
@@ -54,4 +53,4 @@ def command(name: tuple[str, ...], as_json: bool) -> None:
         hint = unknown_hint(asked, [*articles(), *command_articles()])
         fail(f"There is nothing called {visible(asked)}.", hint, MISUSE)
     data = {"articles": [article_data(each) for each in known]}
-    print_result(as_json, data, lambda: Text("\n").join(Text.assemble(*article_text(each)) for each in known), end="")
+    print_result(data, lambda: Text("\n").join(Text.assemble(*article_text(each)) for each in known), end="")

@@ -1,17 +1,5 @@
-"""`mindc fmt`: files as they should be written."""
+"""`mindc fmt`: files as they should be written.
 
-import sys
-from pathlib import Path
-
-import click
-
-from mindlang.breakpoints import SUFFIX
-from mindlang.cli._diagnostic_printer import print_report
-from mindlang.cli._options import files_of, in_files
-from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_diff, print_document, rewrite_source
-from mindlang.compiler.diagnostic import Diagnostic, Findings
-
-EXAMPLES = """\b
 Examples:
   mindc fmt collect.mind
   mindc fmt .
@@ -21,11 +9,26 @@ Examples:
   cat collect.mind | mindc fmt - > tidy.mind
 """
 
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
 
-@click.command(epilog=EXAMPLES)
+import click
+
+from mindlang.breakpoints import SUFFIX
+from mindlang.cli._options import files_of, flag, in_files
+from mindlang.cli._terminal import FINDINGS, MISUSE, OK, print_diff, print_document, print_report, rewrite_source
+from mindlang.compiler.diagnostic import Diagnostic, Findings
+
+if TYPE_CHECKING:
+    from mindlang.compiler.source import Source
+
+
+@click.command
 @click.argument("files", nargs=-1, required=True, metavar="FILE_OR_FOLDER…")
-@click.option("--check", is_flag=True, help="Write nothing; end with 1 where a file is not as it should be.")
-@click.option("--diff", is_flag=True, help="Write nothing; print what would change, and end with 1 if anything would.")
+@flag("--check", "Write nothing; end with 1 where a file is not as it should be.")
+@flag("--diff", "Write nothing; print what would change, and end with 1 if anything would.")
 def command(files: tuple[str, ...], check: bool, diff: bool) -> None:
     """Write files in the one way of the language.
 
@@ -44,32 +47,44 @@ def command(files: tuple[str, ...], check: bool, diff: bool) -> None:
 
 def _tidy(file: str, check: bool, diff: bool) -> int:
     """Tidy one file, or only look; the exit code if it were the only one."""
-    from mindlang.compiler.compile import read_main
-    from mindlang.compiler.format import formatted
-    from mindlang.compiler.parse import parse, parse_stops
     from mindlang.editing.unified_diff import unified
 
-    source, findings = read_main(file), Findings()
-    if isinstance(source, Diagnostic):
-        print_report([source], console(stderr=True))
-        return MISUSE
-    if Path(file).suffix == SUFFIX:
-        parse_stops(source, findings)
-        text = formatted(source.text, start="stop")
-    else:
-        parse(source, findings)
-        text = formatted(source.text)
-    if findings.diagnostics:
-        print_report(findings.diagnostics, console(stderr=True))
-        return FINDINGS
-    is_tidy = text == source.text
+    found = revised(file, _tidied)
+    if isinstance(found, int):
+        return found
+    old, text = found
+    is_tidy = text == old
     if diff:
-        print_diff(unified(file.lstrip("/"), source.text, text))
+        print_diff(unified(file.lstrip("/"), old, text))
     elif check and not is_tidy:
         click.echo(f"{file} is not tidy", err=True)
     elif not check and file == "-":
         print_document(text)
     elif not check and not is_tidy:
-        rewrite_source(file, source.text, text)
+        rewrite_source(file, old, text)
         click.echo(f"{file} is tidy now", err=True)
     return FINDINGS if (diff or check) and not is_tidy else OK
+
+
+def _tidied(source: "Source", findings: Findings) -> str:
+    from mindlang.compiler.format import formatted
+    from mindlang.compiler.parse import parse, parse_stops
+
+    if Path(source.name).suffix == SUFFIX:
+        parse_stops(source, findings)
+        return formatted(source.text, start="stop")
+    parse(source, findings)
+    return formatted(source.text)
+
+
+def revised(file: str, revise: "Callable[[Source, Findings], str]") -> tuple[str, str] | int:
+    """The text of a file as it is and as it becomes; the exit code where it has mistakes, which are reported."""
+    from mindlang.compiler.compile import read_main
+
+    source, findings = read_main(file), Findings()
+    if isinstance(source, Diagnostic):
+        print_report([source])
+        return MISUSE
+    text = revise(source, findings)
+    print_report(findings.diagnostics)
+    return FINDINGS if findings.diagnostics else (source.text, text)

@@ -1,25 +1,24 @@
-"""`mindc gc`: remove weights that nobody has any more."""
+"""`mindc gc`: remove weights that nobody has any more.
 
-from pathlib import Path
-
-import click
-
-from mindlang.cli._options import PATH
-from mindlang.cli._terminal import MISUSE, console, fail, print_json, refusing, tell
-
-EXAMPLES = """\b
 Examples:
   mindc gc                      what could be removed here and below
   mindc gc examples --write     remove it
   mindc gc --json
 """
 
+from pathlib import Path
 
-@click.command(epilog=EXAMPLES)
+import click
+
+from mindlang.cli._options import PATH, flag, json_flag
+from mindlang.cli._terminal import MISUSE, console, fail, is_asked, print_json, refusing, tell
+
+
+@click.command
 @click.argument("folder", type=PATH, default=".", required=False)
-@click.option("--write", is_flag=True, help="Remove them: mindc gc --write")
-@click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc gc --json")
-def command(folder: Path, write: bool, as_json: bool) -> None:
+@flag("--write", "Remove them: mindc gc --write")
+@json_flag("One JSON document instead: mindc gc --json")
+def command(folder: Path, write: bool) -> None:
     """List the weights in FOLDER that no lock names.
 
     And in the folders below; --write removes them. `mindc train` and `mindc edit` never remove weights, so those that
@@ -34,7 +33,7 @@ def command(folder: Path, write: bool, as_json: bool) -> None:
         size = sum(path.stat().st_size for path in found)
         if write:
             remove(found)
-    if as_json:
+    if is_asked("as_json"):
         print_json({"removed": write, "files": [str(path) for path in found], "bytes": size})
         return
     for path in found:

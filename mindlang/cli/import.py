@@ -1,5 +1,10 @@
 # ruff: noqa: N999 (the word that is typed)
-"""`mindc import`: files of other programs, made into those of a mind."""
+"""`mindc import`: files of other programs, made into those of a mind.
+
+Examples:
+  mindc import map apec2016.txt -o walls.txt
+  mindc import map map.yaml -o walls.txt
+"""
 
 from pathlib import Path
 
@@ -9,19 +14,13 @@ from mindlang.cli import Suggesting
 from mindlang.cli import _terminal as terminal
 from mindlang.cli._options import PATH, written
 
-EXAMPLES = """\b
-Examples:
-  mindc import map apec2016.txt -o walls.txt
-  mindc import map map.yaml -o walls.txt
-"""
 
-
-@click.group(cls=Suggesting, epilog=EXAMPLES)
+@click.group(cls=Suggesting)
 def command() -> None:
     """Make files of other programs into those of a mind."""
 
 
-@command.command("map", epilog=EXAMPLES)
+@command.command("map")
 @click.argument("file", type=PATH)
 @written("-o --output", "PATH", "The text. Default: standard output.")
 def import_map(file: Path, output: Path | None) -> None:
@@ -30,6 +29,10 @@ def import_map(file: Path, output: Path | None) -> None:
     FILE is a maze of a micromouse contest, drawn with + or o, - and |, S where the robot starts and G at the goal; or
     map.yaml of ROS, with its picture (PGM or PNG) beside it. What was done and rounded is said, and the lines of a
     mind in which the map stands.
+
+    Examples:
+      mindc import map apec2016.txt -o walls.txt
+      mindc import map map.yaml -o walls.txt
     """
     from mindrun.errors import MindError
     from mindrun.kinds.things.map import START

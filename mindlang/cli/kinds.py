@@ -1,20 +1,19 @@
-"""`mindc kinds`: which kinds and drivers are there?"""
+"""`mindc kinds`: which kinds and drivers are there?
 
-import click
-from mindrun.files.printable import visible
-
-from mindlang.cli._options import one_of
-from mindlang.cli._terminal import MISUSE, fail, print_result
-from mindlang.compiler.diagnostic import did_you_mean, listed
-from mindlang.explaining.article import Article
-
-EXAMPLES = """\b
 Examples:
   mindc kinds
   mindc kinds sensor
   mindc kinds driver
   mindc kinds thing --json
 """
+
+import click
+from mindrun.files.printable import visible
+
+from mindlang.cli._options import json_flag, one_of
+from mindlang.cli._terminal import MISUSE, fail, print_result
+from mindlang.compiler.diagnostic import did_you_mean, listed
+from mindlang.explaining.article import Article
 
 
 def _known() -> tuple[Article, ...]:
@@ -25,15 +24,10 @@ def _known() -> tuple[Article, ...]:
     return (*kind_articles(), *driver_articles())
 
 
-def _nouns() -> dict[str, str]:
-    """The nouns of all kinds and drivers, as completions without a description."""
-    return dict.fromkeys((each.noun for each in _known()), "")
-
-
-@click.command(epilog=EXAMPLES)
-@click.argument("noun", required=False, shell_complete=one_of(_nouns))
-@click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc kinds sensor --json")
-def command(noun: str | None, as_json: bool) -> None:
+@click.command
+@click.argument("noun", required=False, shell_complete=one_of(lambda: {each.noun: "" for each in _known()}))
+@json_flag("One JSON document instead: mindc kinds sensor --json")
+def command(noun: str | None) -> None:
     """List the kinds of the language and the drivers.
 
     NOUN chooses some: body, actuator, sensor, memory, skill, scene, thing, event, measure, curriculum or driver.
@@ -47,7 +41,8 @@ def command(noun: str | None, as_json: bool) -> None:
     known = _known()
     chosen = [each for each in known if noun is None or each.noun == ALSO_CALLED.get(noun, noun)]
     if not chosen:
-        near = did_you_mean(str(noun), _nouns())
-        fail(f"There are no kinds of {visible(str(noun))}.", near or f"Write {listed(_nouns())}.", MISUSE)
+        nouns = {each.noun: "" for each in known}
+        near = did_you_mean(str(noun), nouns)
+        fail(f"There are no kinds of {visible(str(noun))}.", near or f"Write {listed(nouns)}.", MISUSE)
     data = {"kinds": [article_data(each) for each in chosen]}
-    print_result(as_json, data, lambda: Text.assemble(*kind_list(chosen)), end="")
+    print_result(data, lambda: Text.assemble(*kind_list(chosen)), end="")

@@ -1,4 +1,10 @@
-"""`mindc lifelong`: what every task that was taught counts after each lesson."""
+"""`mindc lifelong`: what every task that was taught counts after each lesson.
+
+Examples:
+  mindc lifelong collect.mind
+  mindc lifelong monolith.mind --layouts 200 --seed 1
+  mindc lifelong collect.mind --runs lab/runs --json
+"""
 
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
@@ -8,27 +14,21 @@ import click
 from mindrun.processors import cores
 
 from mindlang.cli import _options as options
-from mindlang.cli._terminal import MISUSE, fail, load_compiled, print_result, procedures_talk, refusing
+from mindlang.cli._terminal import MISUSE, load_compiled, print_result, procedures_talk, refuse_standard_input, refusing
 
 CELL_COLUMNS, LINE_COLUMNS = 7, 80
 LONG_MEAN = 999.95  # from which on a mean has no decimal
-EXAMPLES = """\b
-Examples:
-  mindc lifelong collect.mind
-  mindc lifelong monolith.mind --layouts 200 --seed 1
-  mindc lifelong collect.mind --runs lab/runs --json
-"""
 
 
-@click.command(epilog=EXAMPLES)
+@click.command
 @click.argument("file")
 @click.option("--runs", type=options.PATH, default="runs", show_default=True, help="Where runs are kept.")
 @click.option("--layouts", type=options.RUNS, default=50, show_default=True, help="On which each task runs each time.")
 @click.option("--seed", type=options.SEED, default=1, show_default=True, help="Draws the layouts.")
 @options.WORKERS
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
-@click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
-def command(file: str, runs: Path, layouts: int, seed: int, workers: int | None, as_json: bool, quiet: bool) -> None:
+@options.json_flag()
+@options.quiet_flag()
+def command(file: str, runs: Path, layouts: int, seed: int, workers: int | None) -> None:
     """Show what each lesson of FILE taught, and what was forgotten.
 
     The lessons are those whose runs are kept, and whose weights went to the lock. After each of them every task that
@@ -44,25 +44,23 @@ def command(file: str, runs: Path, layouts: int, seed: int, workers: int | None,
     from mindlang.training.subject import open_subject
     from mindlang.training.taught_runs import history, mean_of, players, taught_runs
 
-    if file == "-":
-        fail("Standard input has no runs: they are kept of a file.", "Save it as a file.", MISUSE)
-    session, compiled = RunSession(quiet), load_compiled(file)
+    refuse_standard_input(file, "Standard input has no runs: they are kept of a file.")
+    session, compiled = RunSession(), load_compiled(file)
     with refusing(), refusing(MISUSE, of=NotFoundError), procedures_talk():
         subject = open_subject(Path(file), compiled)
         taught, others = taught_runs(subject, runs)
         if others:
-            session.say(f"note: lessons whose weights fit no more: {others}; they are left out")
+            session.note(f"lessons whose weights fit no more: {others}; they are left out")
         rows: dict[tuple[str, str], list[float | None]] = {each.place: [] for each in taught}
-        with session.progress() as progress:
-            bar = progress.add_task("tasks", total=len(rows) * len(taught))
+        with session.counting("tasks", len(rows) * len(taught)) as told:
             for place, row in rows.items():
                 for rollout in players(subject, place, taught, workers or cores()):
                     if rollout:
                         ensure_compiled(rollout, session.say)
                     row.append(mean_of(rollout, seeds_of(seed, layouts)) if rollout else None)
-                    progress.advance(bar)
+                    told(1)
     found = {"layouts": layouts, "seed": seed, **history(taught, rows)}
-    print_result(as_json, found, lambda: Text("\n".join(lines(found))))
+    print_result(found, lambda: Text("\n".join(lines(found))))
 
 
 def lines(found: Mapping[str, Any]) -> Iterator[str]:
@@ -79,12 +77,9 @@ def lines(found: Mapping[str, Any]) -> Iterator[str]:
         yield "\n" + _line("after lesson", wide, [*range(1, len(lessons) + 1)][shown], "kept" * is_last)
         for name, task in zip(names, tasks, strict=True):
             share = "–" if task["kept"] is None else f"{task['kept']:.0%}"
-            yield _line(name, wide, map(_short, task["means"][shown]), share * is_last)
+            means = ("–" if x is None else f"{x:.{int(abs(x) < LONG_MEAN)}f}" for x in task["means"][shown])
+            yield _line(name, wide, means, share * is_last)
 
 
 def _line(name: str, wide: int, cells: Iterable[object], last: str) -> str:
     return f"{name:<{wide}}" + "".join(f"{cell!s:>{CELL_COLUMNS}}" for cell in (*cells, last)).rstrip()
-
-
-def _short(mean: float | None) -> str:
-    return "–" if mean is None else f"{mean:.1f}" if abs(mean) < LONG_MEAN else f"{mean:.0f}"

@@ -1,4 +1,12 @@
-"""`mindc lint`: what is wrong in these files, and what is hardly meant."""
+"""`mindc lint`: what is wrong in these files, and what is hardly meant.
+
+Examples:
+  mindc lint collect.mind
+  mindc lint .
+  mindc lint *.mind --ignore untaught-skill,unread-sensor
+  mindc lint collect.mind --fix
+  mindc lint examples/collect/*.mind --format sarif > lint.sarif
+"""
 
 import sys
 from collections.abc import Sequence
@@ -9,22 +17,14 @@ from typing import TYPE_CHECKING
 import click
 from click.shell_completion import CompletionItem
 
-from mindlang.cli._diagnostic_printer import as_data, print_report
-from mindlang.cli._options import files_of, in_files, named
-from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, fail, print_json, refusing
+from mindlang.cli._diagnostic_printer import as_data
+from mindlang.cli._options import files_of, flag, in_files, named
+from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, fail, print_json, print_report, refusing
 from mindlang.compiler.diagnostic import Diagnostic, distinct
 
 if TYPE_CHECKING:
     from mindlang.lint.settings import LintSettings
 
-EXAMPLES = """\b
-Examples:
-  mindc lint collect.mind
-  mindc lint .
-  mindc lint *.mind --ignore untaught-skill,unread-sensor
-  mindc lint collect.mind --fix
-  mindc lint examples/collect/*.mind --format sarif > lint.sarif
-"""
 FORMATS = ("text", "json", "github", "sarif")
 
 
@@ -36,9 +36,9 @@ def _rules(context: click.Context, parameter: click.Parameter, begun: str) -> li
     return [CompletionItem(f"{before}{comma}{code}") for code in all_rules() if code.startswith(last)]
 
 
-@click.command(epilog=EXAMPLES)
+@click.command
 @click.argument("files", nargs=-1, required=True, metavar="FILE_OR_FOLDER…")
-@click.option("--fix", is_flag=True, help="Make the fixes that never change what the robot does.")
+@flag("--fix", "Make the fixes that never change what the robot does.")
 @named("--select", "CODES", _rules, "Only these rules: --select unread-sensor,edge-at-zero", multiple=True)
 @named("--ignore", "CODES", _rules, "Not these rules: --ignore untaught-skill", multiple=True)
 @click.option("--format", "as_", type=click.Choice(FORMATS), default="text", show_default=True, help="Of the findings.")
@@ -74,7 +74,7 @@ def _settings(file: str) -> "LintSettings":
 
     found = settings_of(Path(realpath(file)))
     if found.wrong:
-        print_report(found.wrong, console(stderr=True))
+        print_report(found.wrong)
         sys.exit(MISUSE)
     return found
 

@@ -10,18 +10,13 @@ from mindlang.cli._options import PATH
 from mindlang.cli._terminal import MISUSE, fail, write_file
 from mindlang.compiler.diagnostic import listed
 
-EXAMPLES = """\b
-Examples:
-  mindc lock merge %O %A %B --name %P     as git calls it
-"""
-
 
 @click.group(cls=Suggesting)
 def command() -> None:
     """Bring together what two branches have taught."""
 
 
-@command.command(epilog=EXAMPLES)
+@command.command
 @click.argument("base", type=PATH)
 @click.argument("ours", type=PATH)
 @click.argument("theirs", type=PATH)
@@ -34,6 +29,9 @@ def merge(base: Path, ours: Path, theirs: Path, name: str) -> None:
 
     Ends with 1 where both have changed the line of a skill: then what each says stands between marks, and one of these
     is to be deleted; where one branch has taken the line out, it says nothing there.
+
+    Examples:
+      mindc lock merge %O %A %B --name %P     as git calls it
     """
     from mindlang.lock import LockError, merge, read_lock
 

@@ -1,23 +1,22 @@
-"""`mindc migrate`: files of an older mindc say in the words of this one what they meant."""
+"""`mindc migrate`: files of an older mindc say in the words of this one what they meant.
 
-import sys
-
-import click
-
-from mindlang.cli._diagnostic_printer import print_report
-from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_diff, print_document, rewrite_source
-from mindlang.compiler.diagnostic import Diagnostic, Findings
-
-EXAMPLES = """\b
 Examples:
   mindc migrate collect.mind            the diff
   mindc migrate *.mind --write          make it
 """
 
+import sys
 
-@click.command(epilog=EXAMPLES)
+import click
+
+from mindlang.cli._options import flag
+from mindlang.cli._terminal import OK, print_diff, print_document, rewrite_source
+from mindlang.cli.fmt import revised
+
+
+@click.command
 @click.argument("files", nargs=-1, required=True, metavar="FILE…")
-@click.option("--write", is_flag=True, help="Change the files: mindc migrate collect.mind --write")
+@flag("--write", "Change the files: mindc migrate collect.mind --write")
 def command(files: tuple[str, ...], write: bool) -> None:
     """Bring files of an older mindc along, and print the diff.
 
@@ -30,25 +29,20 @@ def command(files: tuple[str, ...], write: bool) -> None:
 
 def _migrate(file: str, write: bool) -> int:
     """Migrate one file; the exit code if it were the only one."""
-    from mindlang.compiler.compile import read_main
     from mindlang.compiler.migration import migrated_text
     from mindlang.editing.unified_diff import unified
 
-    source, findings = read_main(file), Findings()
-    if isinstance(source, Diagnostic):
-        print_report([source], console(stderr=True))
-        return MISUSE
-    text = migrated_text(source, findings)
-    if findings.diagnostics:
-        print_report(findings.diagnostics, console(stderr=True))
-        return FINDINGS
+    found = revised(file, migrated_text)
+    if isinstance(found, int):
+        return found
+    old, text = found
     if write and file == "-":
         print_document(text)
     else:
-        print_diff(unified(file.lstrip("/"), source.text, text))
-    if text == source.text:
+        print_diff(unified(file.lstrip("/"), old, text))
+    if text == old:
         click.echo(f"{file} needs nothing", err=True)
     elif write and file != "-":
-        rewrite_source(file, source.text, text)
+        rewrite_source(file, old, text)
         click.echo(f"{file} is written", err=True)
     return OK

@@ -1,17 +1,5 @@
-"""`mindc new`: a project to begin with, a robot and a task put together."""
+"""`mindc new`: a project to begin with, a robot and a task put together.
 
-import sys
-from pathlib import Path
-from typing import Any
-
-import click
-
-from mindlang.cli._options import named, one_of
-from mindlang.cli._terminal import MISUSE, fail, print_json, refusing
-from mindlang.templates import Robot, Task, fitting, known, robots, robots_for, tasks, tasks_of
-from mindlang.templates.project import check_free, check_name, make_folder, project
-
-EXAMPLES = """\b
 Examples:
   mindc new rover
   mindc new rover --robot differential --task patrol
@@ -20,17 +8,27 @@ Examples:
   mindc new --list --json
 """
 
+import sys
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mindlang.cli._options import flag, named, one_of
+from mindlang.cli._terminal import MISUSE, fail, print_json, refusing
+from mindlang.templates import Robot, Task, fitting, known, robots, robots_for, tasks, tasks_of
+from mindlang.templates.project import check_free, check_name, make_folder, project
 
 ROBOTS = one_of(lambda: {name: each.about for name, each in robots().items()})
 TASKS = one_of(lambda: {name: each.about for name, each in tasks().items()})
 
 
-@click.command(epilog=EXAMPLES)
+@click.command
 @click.argument("name", required=False)
 @named("--robot", "ROBOT", ROBOTS, "What it is: --robot differential")
 @named("--task", "TASK", TASKS, "What it is to learn: --task patrol")
-@click.option("--list", "as_list", is_flag=True, help="Print which robots and tasks there are: --list")
-@click.option("--json", "as_json", is_flag=True, help="Print that as one JSON document: --list --json")
+@flag("--list as_list", "Print which robots and tasks there are: --list")
+@flag("--json as_json", "Print that as one JSON document: --list --json")
 def command(name: str | None, robot: str | None, task: str | None, as_list: bool, as_json: bool) -> None:
     """Make a folder NAME with a robot that learns a task.
 

@@ -1,14 +1,5 @@
-"""`mindc plot`: how skills were learnt, as curves."""
+"""`mindc plot`: how skills were learnt, as curves.
 
-from importlib.util import find_spec
-from pathlib import Path
-
-import click
-
-from mindlang.cli._options import PATH, written
-from mindlang.cli._terminal import MISUSE, fail, print_json, refuse_unwritable, refusing, write_file
-
-EXAMPLES = """\b
 Examples:
   mindc plot runs/GoToObject/20260714T120000Z-1
   mindc plot runs/GoToObject runs/Avoid -o curves.png
@@ -18,15 +9,22 @@ Examples:
   mindc plot runs --ticks              score by what it took
 """
 
+from pathlib import Path
 
-@click.command(epilog=EXAMPLES)
+import click
+
+from mindlang.cli._options import PATH, flag, json_flag, quiet_flag, written
+from mindlang.cli._terminal import MISUSE, is_asked, need, print_json, refuse_unwritable, refusing, write_file
+
+
+@click.command
 @click.argument("runs", nargs=-1, required=True, metavar="RUN…", type=PATH)
 @written("-o --output", "PATH", "A .svg or a .png file.", default="curves.svg", show_default=True)
-@click.option("--mean", is_flag=True, help="A panel for each lesson: the mean of its runs, and how sure it is.")
-@click.option("--ticks", is_flag=True, help="Along the ticks of an attempt so far, not its generations.")
-@click.option("--json", "as_json", is_flag=True, help="Say what was drawn as one JSON document.")
-@click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
-def command(runs: tuple[Path, ...], output: Path, mean: bool, ticks: bool, as_json: bool, quiet: bool) -> None:
+@flag("--mean", "A panel for each lesson: the mean of its runs, and how sure it is.")
+@flag("--ticks", "Along the ticks of an attempt so far, not its generations.")
+@json_flag("Say what was drawn as one JSON document.")
+@quiet_flag()
+def command(runs: tuple[Path, ...], output: Path, mean: bool, ticks: bool) -> None:
     """Draw how the skills of every RUN were learnt.
 
     The best of each generation, and the champion on fresh layouts. A RUN is the folder of a run, which may still go on,
@@ -41,8 +39,7 @@ def command(runs: tuple[Path, ...], output: Path, mean: bool, ticks: bool, as_js
     from mindlang.pictures.learning_log import along_ticks, by_lesson, load_curves
     from mindlang.training.standstill import idle_note
 
-    if find_spec("matplotlib") is None:
-        fail("Curves are drawn with matplotlib, which is not installed.", "pip install 'mindlang[plot]'", MISUSE)
+    need("matplotlib", "Curves are drawn with", "plot")
     refuse_unwritable(output, ".svg", ".png")
     with refusing(), refusing(MISUSE, of=NotFoundError):
         loaded = load_curves(runs)
@@ -52,9 +49,9 @@ def command(runs: tuple[Path, ...], output: Path, mean: bool, ticks: bool, as_js
 
     lessons = by_lesson(curves) if mean else []
     write_file(output, image(mean_figure(lessons) if mean else figure(curves), output.suffix))
-    if as_json:
+    if is_asked("as_json"):
         print_json({"picture": str(output), "curves": [each.data() for each in lessons or curves]})
-    if not quiet:
+    if not is_asked("quiet"):
         shown = curves[0].name if len(curves) == 1 else f"{len(curves)} runs"
         for curve in loaded:
             if note := idle_note(curve.records):

@@ -1,13 +1,5 @@
-"""`mindc prove`: what can be said about a mind without running it."""
+"""`mindc prove`: what can be said about a mind without running it.
 
-from dataclasses import replace
-
-import click
-
-from mindlang.cli._options import LAYOUT, SKILLS, TASKS, NumberOption, named
-from mindlang.cli._terminal import MISUSE, load_compiled, print_json, print_table, procedures_talk, refusing
-
-EXAMPLES = """\b
 Examples:
   mindc prove collect.mind
   mindc prove collect.mind --leak 0.05
@@ -16,8 +8,15 @@ Examples:
   mindc prove collect.mind --json
 """
 
+from dataclasses import replace
 
-@click.command(epilog=EXAMPLES)
+import click
+
+from mindlang.cli._options import LAYOUT, SKILLS, TASKS, NumberOption, flag, json_flag, named
+from mindlang.cli._terminal import MISUSE, is_asked, load_compiled, print_json, print_table, procedures_talk, refusing
+
+
+@click.command
 @click.argument("file")
 @click.option(
     "--leak",
@@ -27,13 +26,11 @@ Examples:
     help="What a learnt line sends where it should send 0. Default: 0.01.",
 )
 @named("--master", "SKILL", SKILLS, "Who is in charge. Default: the mind's master.")
-@click.option("--run", "with_run", is_flag=True, help="Run a task, too, and count ticks without influence.")
+@flag("--run with_run", "Run a task, too, and count ticks without influence.")
 @named("--task", "TASK", TASKS, "Of the run. Default: the one that `mindc run` takes.")
 @click.option("--seed", type=LAYOUT, default=1, help="Of the run. Default: 1.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
-def command(
-    file: str, leak: float, master: str | None, with_run: bool, task: str | None, seed: int, as_json: bool
-) -> None:
+@json_flag()
+def command(file: str, leak: float, master: str | None, with_run: bool, task: str | None, seed: int) -> None:
     """Prove what FILE can and cannot do, for any readings.
 
     From the declaration alone: the paths of influence to each actuator, and how much of a command small leaks of
@@ -67,7 +64,7 @@ def command(
         with refusing_setups("--run: "), procedures_talk():
             run = record_undriven(set_up(file, compiled, task, graph.master), seed, ensure_compiled)
     data = proof_data(prove(ready.policy.graph, ready.policy.weights, leak), hashes, run)
-    if as_json:
+    if is_asked("as_json"):
         print_json(data)
     else:
         print_table(proof_report(data))

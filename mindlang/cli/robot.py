@@ -1,4 +1,9 @@
-"""`mindc robot`: a robot.yaml to fill in."""
+"""`mindc robot`: a robot.yaml to fill in.
+
+Examples:
+  mindc robot collect.mind
+  mindc robot collect.mind -o robot.yaml
+"""
 
 from pathlib import Path
 
@@ -8,14 +13,8 @@ from mindrun.terminal.command_line import command_line
 from mindlang.cli import _terminal as terminal
 from mindlang.cli._options import written
 
-EXAMPLES = """\b
-Examples:
-  mindc robot collect.mind
-  mindc robot collect.mind -o robot.yaml
-"""
 
-
-@click.command(epilog=EXAMPLES)
+@click.command
 @click.argument("file")
 @written("-o --output", "PATH", "The file, which is not there yet: -o robot.yaml. Default: standard output.")
 def command(file: str, output: Path | None) -> None:

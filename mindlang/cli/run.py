@@ -1,4 +1,17 @@
-"""`mindc run`: one run of a task, in numbers, pictures and tables."""
+"""`mindc run`: one run of a task, in numbers, pictures and tables.
+
+Examples:
+  mindc run collect.mind
+  mindc run collect.mind --task GoToObject --seed 3
+  mindc run collect.mind --task Collect --no-interruption --picture path.png
+  mindc run collect.mind --task Collect --seed 3 --video run.mp4 --speed 4
+  mindc run collect.mind --task Collect --seed 3 --video run.gif
+  mindc run collect.mind --task Collect --seed 3 --trace run.csv
+  mindc run collect.mind --task Collect --seed 3 --record run.rec
+  mindc run collect.mind --task Collect --seed 3 --break collect.break
+  mindc run collect.mind --task Avoid --seed 3 --json
+  mindc run collect.mind --task Avoid --seed 1/17   of bench --seed 1
+"""
 
 from __future__ import annotations
 
@@ -24,23 +37,10 @@ if TYPE_CHECKING:
     from mindlang.run.recorded_run import RecordedRun
     from mindlang.run.setup import RunSetup
 
-EXAMPLES = """\b
-Examples:
-  mindc run collect.mind
-  mindc run collect.mind --task GoToObject --seed 3
-  mindc run collect.mind --task Collect --no-interruption --picture path.png
-  mindc run collect.mind --task Collect --seed 3 --video run.mp4 --speed 4
-  mindc run collect.mind --task Collect --seed 3 --video run.gif
-  mindc run collect.mind --task Collect --seed 3 --trace run.csv
-  mindc run collect.mind --task Collect --seed 3 --record run.rec
-  mindc run collect.mind --task Collect --seed 3 --break collect.break
-  mindc run collect.mind --task Avoid --seed 3 --json
-  mindc run collect.mind --task Avoid --seed 1/17   of bench --seed 1
-"""
 WRITTEN = {"picture": (".png",), "video": (".mp4", ".gif"), "trace": (".csv", ".parquet"), "record": (".rec",)}
 
 
-@click.command(epilog=EXAMPLES)
+@click.command
 @click.argument("file")
 @options.run_options(seed="The same seed gives the same run. Default: drawn, and printed.")
 @options.written("--picture", "PATH.png", "Draw the world and the path that the robot took.")
@@ -57,9 +57,9 @@ WRITTEN = {"picture": (".png",), "video": (".mp4", ".gif"), "trace": (".csv", ".
 @options.written("--trace", "PATH.csv", "Write readings, influence, commands and rewards of every tick.")
 @options.written("--record", "PATH.rec", "Write a recording, for mindc view, why and whatif.")
 @click.option("--break", "breaks", type=options.PATH, metavar="PATH.break", help="Stop where a line of it says.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
-@click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
-def command(file: str, chosen: options.RunChoice, breaks: Path | None, as_json: bool, quiet: bool, **said: Any) -> None:
+@options.json_flag()
+@options.quiet_flag()
+def command(file: str, chosen: options.RunChoice, breaks: Path | None, **said: Any) -> None:
     """Run a task of FILE once, in numbers, pictures and tables.
 
     With the weights that its skills were taught. Runs the Python code of the file's procedures. Refuses skills that
@@ -74,10 +74,10 @@ def command(file: str, chosen: options.RunChoice, breaks: Path | None, as_json: 
         options.refuse_ineffective("of --video: say it, too", "speed")
     from mindlang.cli._session import RunSession
 
-    sys.exit(_run(file, chosen, breaks, RunFiles(RunSession(quiet), **said), as_json))
+    sys.exit(_run(file, chosen, breaks, RunFiles(RunSession(), **said)))
 
 
-def _run(file: str, chosen: options.RunChoice, breaks: Path | None, files: RunFiles, as_json: bool) -> int:
+def _run(file: str, chosen: options.RunChoice, breaks: Path | None, files: RunFiles) -> int:
     """Run to the end or to a line of the .break file, print and write the outcome; the exit code."""
     from rich.console import Group
 
@@ -107,7 +107,7 @@ def _run(file: str, chosen: options.RunChoice, breaks: Path | None, files: RunFi
         came = came | {"promises": counts.data()}
     found = run_names(setup.task, setup.master, seed) | {"notes": [*setup.ready.notes, *rollout.notes], **came}
     where = [stop_summary(stop)] if breaks else []
-    terminal.print_result(as_json, found, lambda: Group(*where, run_summary(found)))
+    terminal.print_result(found, lambda: Group(*where, run_summary(found)))
     if run:
         files.write(run, plain, found)
     return terminal.FINDINGS if stop else terminal.OK
@@ -197,7 +197,7 @@ class RunFiles:
         from mindlang.pictures.film import Film
 
         film = Film(run, found, self.speed, path.suffix.lower())
-        with terminal.writing(path), terminal.refusing(terminal.MISUSE), self.session.progress() as progress:
-            bar = progress.add_task(path.name, total=len(film))
-            film.write(path, lambda: progress.advance(bar))
+        counting = self.session.counting(path.name, len(film))
+        with terminal.writing(path), terminal.refusing(terminal.MISUSE), counting as told:
+            film.write(path, lambda: told(1))
         self.session.say(f"{path}: {film.seconds:.0f} s at {film.speed:g} times the robot's speed")

@@ -1,18 +1,17 @@
-"""`mindc schema`: the JSON Schema of `robot.yaml`."""
+"""`mindc schema`: the JSON Schema of `robot.yaml`.
 
-import click
-
-from mindlang.cli._terminal import print_json
-
-EXAMPLES = """\b
 Examples:
   mindc schema > robot.schema.json
 Then an editor that knows YAML completes and checks a file that begins with:
   # yaml-language-server: $schema=robot.schema.json
 """
 
+import click
 
-@click.command(epilog=EXAMPLES)
+from mindlang.cli._terminal import print_json
+
+
+@click.command
 def command() -> None:
     """Print the JSON Schema of robot.yaml.
 

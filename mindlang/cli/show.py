@@ -1,10 +1,5 @@
-"""`mindc show`: the hierarchy of a mind as a tree, and for other programs: Graphviz, GraphML, JSON."""
+"""`mindc show`: the hierarchy of a mind as a tree, and for other programs: Graphviz, GraphML, JSON.
 
-import click
-
-from mindlang.cli._terminal import console, load_compiled, print_document, print_json
-
-EXAMPLES = """\b
 Examples:
   mindc show collect.mind
   mindc show collect.mind --dot | dot -Tsvg > collect.svg
@@ -12,12 +7,17 @@ Examples:
   mindc show collect.mind --json
 """
 
+import click
 
-@click.command(epilog=EXAMPLES)
+from mindlang.cli._options import flag
+from mindlang.cli._terminal import console, load_compiled, print_document, print_json
+
+
+@click.command
 @click.argument("file")
-@click.option("--dot", "as_dot", is_flag=True, help="Graphviz instead: mindc show collect.mind --dot | dot -Tsvg")
-@click.option("--graphml", "as_graphml", is_flag=True, help="GraphML, which yEd, Gephi and networkx read.")
-@click.option("--json", "as_json", is_flag=True, help="Nodes and links, as networkx.node_link_graph reads them.")
+@flag("--dot as_dot", "Graphviz instead: mindc show collect.mind --dot | dot -Tsvg")
+@flag("--graphml as_graphml", "GraphML, which yEd, Gephi and networkx read.")
+@flag("--json as_json", "Nodes and links, as networkx.node_link_graph reads them.")
 def command(file: str, as_dot: bool, as_graphml: bool, as_json: bool) -> None:
     """Show the hierarchy of a mind, from the master down."""
     from networkx import generate_graphml, node_link_data, relabel_nodes

@@ -1,4 +1,11 @@
-"""`mindc status`: which skills are trained, and with what their weights were made."""
+"""`mindc status`: which skills are trained, and with what their weights were made.
+
+Examples:
+  mindc status collect.mind
+  mindc status collect.mind --json
+  mindc status collect.mind Avoid Collect
+  mindc status collect.mind --accept Avoid Collect
+"""
 
 import sys
 from collections.abc import Sequence
@@ -7,8 +14,7 @@ from typing import TYPE_CHECKING
 import click
 
 from mindlang.cli import _terminal as terminal
-from mindlang.cli._options import SKILLS
-from mindlang.compiler.diagnostic import did_you_mean
+from mindlang.cli._options import SKILLS, flag, json_flag
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -25,21 +31,13 @@ COLOURS = {
     "does not learn": "dim",
 }
 
-EXAMPLES = """\b
-Examples:
-  mindc status collect.mind
-  mindc status collect.mind --json
-  mindc status collect.mind Avoid Collect
-  mindc status collect.mind --accept Avoid Collect
-"""
 
-
-@click.command(epilog=EXAMPLES)
+@click.command
 @click.argument("file")
 @click.argument("skills", nargs=-1, metavar="[SKILL]...", shell_complete=SKILLS)
-@click.option("--accept", is_flag=True, help="Their weights will do in the mind as it is now: --accept Avoid Collect")
-@click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc status collect.mind --json")
-def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> None:
+@flag("--accept", "Their weights will do in the mind as it is now: --accept Avoid Collect")
+@json_flag("One JSON document instead: mindc status collect.mind --json")
+def command(file: str, skills: tuple[str, ...], accept: bool) -> None:
     """Show how every skill of FILE stands to its weights.
 
     Or each SKILL alone; and how these were made. A skill is trained, stale and why, untaught, or taught elsewhere: with
@@ -54,10 +52,8 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
 
     compiled = terminal.load_compiled(file)
     _, graph = compiled.whole
-    sources, known = lock_sources(compiled.sources), [skill.name for skill in graph.skills]
-    for skill in skills:
-        if skill not in known:
-            terminal.fail(f"There is no skill {skill}.", did_you_mean(skill, known), terminal.MISUSE)
+    sources = lock_sources(compiled.sources)
+    terminal.known_skills(graph, *skills)
     if accept and not skills:
         needed = "--accept needs the skills whose weights will do."
         terminal.fail(needed, "Name them: --accept Avoid Collect", terminal.MISUSE)
@@ -66,7 +62,7 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
             accept_weights(graph, sources, skills)
     found = [row for row in rows(graph, sources) if not skills or row.skill in skills]
     data = {"skills": [as_data(row) for row in found]}
-    terminal.print_result(as_json, data, lambda: report(found, terminal.console()), end="")
+    terminal.print_result(data, lambda: report(found, terminal.console()), end="")
     sys.exit(terminal.OK if all(row.is_fine for row in found if row.is_needed) else terminal.FINDINGS)
 
 

@@ -1,17 +1,5 @@
-"""`mindc train`: teach the skills of a mind."""
+"""`mindc train`: teach the skills of a mind.
 
-from importlib.util import find_spec
-from pathlib import Path
-from typing import Any
-
-import click
-
-from mindlang import limits
-from mindlang.cli import _options as options
-from mindlang.cli._options import NumberOption, WholeOption
-from mindlang.cli._terminal import INTERRUPTED, MISUSE, OK, fail, refusing
-
-EXAMPLES = """\b
 Examples:
   mindc train collect.mind    every lesson that has no weights or stale ones
   mindc train collect.mind GoToObject --generations 50 --seed 1
@@ -31,8 +19,18 @@ A cluster with SLURM (what tls.pem is, and other ways: docs/cluster.md):
   mindc train collect.mind --attempts 32 --on dask:scheduler.json,tls.pem
 """
 
+from pathlib import Path
+from typing import Any
 
-@click.command(epilog=EXAMPLES)
+import click
+
+from mindlang import limits
+from mindlang.cli import _options as options
+from mindlang.cli._options import NumberOption, WholeOption, flag
+from mindlang.cli._terminal import INTERRUPTED, MISUSE, OK, fail, need, refuse_standard_input, refusing
+
+
+@click.command
 @click.argument("file", required=False)
 @click.argument("skills", nargs=-1, metavar="[SKILL]...", shell_complete=options.SKILLS)
 @options.named(
@@ -42,8 +40,8 @@ A cluster with SLURM (what tls.pem is, and other ways: docs/cluster.md):
 @click.option("--scale", type=NumberOption(0, 1000, min_open=True), default=1.0, help="Times so many generations.")
 @click.option("--population", type=WholeOption(*limits.POPULATION_BOUNDS), help="Genomes in a generation.")
 @click.option("--attempts", type=WholeOption(*limits.ATTEMPT_BOUNDS), help="Independent attempts; the best is kept.")
-@click.option("--from-scratch", is_flag=True, help="Forget the weights that the skill has.")
-@click.option("--force", is_flag=True, help="Teach what is up to date, too, and keep it even where it does worse.")
+@flag("--from-scratch", "Forget the weights that the skill has.")
+@flag("--force", "Teach what is up to date, too, and keep it even where it does worse.")
 @click.option("--seed", type=options.SEED, help="The same seed gives the same weights.")
 @options.WORKERS
 @options.ON(
@@ -52,9 +50,9 @@ A cluster with SLURM (what tls.pem is, and other ways: docs/cluster.md):
 )
 @click.option("--runs", type=options.PATH, default="runs", show_default=True, help="Where runs are kept.")
 @click.option("--resume", type=options.PATH, metavar="RUN", help="Go on with a run that was stopped.")
-@click.option("--tensorboard", "event_files", is_flag=True, help="Write event files for TensorBoard into the run, too.")
-@click.option("--json", "as_json", is_flag=True, help="Print one line of JSON per lesson.")
-@click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors.")
+@flag("--tensorboard event_files", "Write event files for TensorBoard into the run, too.")
+@flag("--json as_json", "Print one line of JSON per lesson.")
+@flag("-q --quiet", "Print nothing but errors.")
 def command(file: str | None, skills: tuple[str, ...], resume: Path | None, force: bool, **said: Any) -> int:
     """Teach the skills of FILE, in the order of its curriculum.
 
@@ -72,13 +70,11 @@ def command(file: str | None, skills: tuple[str, ...], resume: Path | None, forc
     from mindlang.cli._trainer import Trainer
     from mindlang.training.lesson_choice import TrainOptions
 
-    if file == "-":
-        fail("Standard input cannot be taught: what is learnt is kept beside a file.", "Save it as a file.", MISUSE)
+    refuse_standard_input(file or "", "Standard input cannot be taught: what is learnt is kept beside a file.")
     if (file is None) == (resume is None):
         fail("Say what to train: a file, or --resume and a run.", "mindc train --help has examples.", MISUSE)
-    if said["event_files"] and find_spec("tensorboardX") is None:
-        missing = "Event files are written with tensorboardX, which is not installed."
-        fail(missing, "pip install 'mindlang[tensorboard]'", MISUSE)
+    if said["event_files"]:
+        need("tensorboardX", "Event files are written with", "tensorboard")
     trainer, numbers = options.taken(Trainer, said), options.taken(TrainOptions, said)
     with refusing(), refusing(MISUSE, of=NotFoundError):
         if resume:

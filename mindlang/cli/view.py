@@ -1,4 +1,18 @@
-"""`mindc view`: a run, a recording or a training, seen in a browser, or written to a page."""
+"""`mindc view`: a run, a recording or a training, seen in a browser, or written to a page.
+
+Examples:
+  mindc view collect.mind
+  mindc view collect.mind --task Collect --seed 3
+  mindc view day.rec ball.bundle           what a robot has recorded
+  mindc view run.rec collect.mind          what mindc run --record has written
+  mindc view collect.mind --task Collect --break collect.break
+  mindc view day.rec ball.bundle --follow  and what it still records
+  mindc view day.rec ball.bundle --break day.break  where it had to stop, say
+  mindc view robot.local:day.rec ball.bundle --follow  through ssh
+  mindc view runs/                         what is being learnt, and champions
+  mindc view collect.mind --no-interruption --port 8123 --no-browser
+  mindc view collect.mind --task Collect --export run.html
+"""
 
 import secrets
 import sys
@@ -19,35 +33,19 @@ if TYPE_CHECKING:
     from mindlang.view.viewed import Viewed
     from mindlang.view.viewed_recording import Watching
 
-EXAMPLES = """\b
-Examples:
-  mindc view collect.mind
-  mindc view collect.mind --task Collect --seed 3
-  mindc view day.rec ball.bundle           what a robot has recorded
-  mindc view run.rec collect.mind          what mindc run --record has written
-  mindc view collect.mind --task Collect --break collect.break
-  mindc view day.rec ball.bundle --follow  and what it still records
-  mindc view day.rec ball.bundle --break day.break  where it had to stop, say
-  mindc view robot.local:day.rec ball.bundle --follow  through ssh
-  mindc view runs/                         what is being learnt, and champions
-  mindc view collect.mind --no-interruption --port 8123 --no-browser
-  mindc view collect.mind --task Collect --export run.html
-"""
 MAX_PORT = 65535
 
 
-@click.command(epilog=EXAMPLES)
+@click.command
 @click.argument("file")
 @click.argument("bundle", required=False)
 @options.run_options(seed="The same seed gives the same run. Default: drawn.")
 @click.option("--break", "breaks", type=PATH, metavar="PATH.break", help="Pause the page where a line of it says.")
-@click.option(
-    "--follow", is_flag=True, help="Of a recording: show what is still written. HOST:FILE.rec is read by ssh."
-)
+@options.flag("--follow", "Of a recording: show what is still written. HOST:FILE.rec is read by ssh.")
 @click.option("--port", type=options.WholeOption(1, MAX_PORT), help="Of this machine. Default: any that is free.")
-@options.unless("--no-browser", "opens_browser", "Print the address, and open nothing.")
+@options.unless("--no-browser opens_browser", "Print the address, and open nothing.")
 @options.written("--export", "PATH.html", "Write the page with the run in it, and end.")
-@click.option("-q", "--quiet", is_flag=True, help="Print nothing but the address and errors.")
+@options.quiet_flag("Print nothing but the address and errors.")
 def command(file: str, bundle: str | None, chosen: RunChoice, breaks: Path | None, follow: bool, **said: Any) -> None:
     """See a run of FILE, or a robot's day, in a browser.
 
@@ -72,21 +70,21 @@ def command(file: str, bundle: str | None, chosen: RunChoice, breaks: Path | Non
         _show_recording(file, Path(bundle), follow, breaks, output)
     elif Path(file).is_dir():
         refuse_ineffective("of a run or a recording, not of trainings", "bundle", *OF_A_CAST, "breaks", "export")
-        output.show(*training_view(Path(file), chosen.seed, output.quiet))
+        output.show(*training_view(Path(file), chosen.seed))
     elif file.endswith(".rec"):
         instead = command_line("mindc", "view", Path(file), "NAME.bundle")
         raise click.UsageError(f"A recording is seen with the bundle that was running: {instead}")
     else:
-        output.show(run_view(file, chosen, breaks, output.quiet))
+        output.show(run_view(file, chosen, breaks))
 
 
-def run_view(file: str, chosen: RunChoice, breaks: Path | None, quiet: bool) -> "Viewed":
+def run_view(file: str, chosen: RunChoice, breaks: Path | None) -> "Viewed":
     """A run at its beginning, of a drawn seed where none is said; `breaks` is a file of breakpoints."""
     from mindlang.cli._session import RunSession
     from mindlang.compiler.drawing import text_after_name
     from mindlang.view.viewed_run import ViewedRun
 
-    compiled, session = terminal.load_compiled(file), RunSession(quiet)
+    compiled, session = terminal.load_compiled(file), RunSession()
     _, (setup, rollout), breakpoints = session.prepare_stopping(file, compiled, chosen, breaks)
     skills = compiled.whole[0].skills
     texts = {(skill.name, edge.target): text_after_name(edge.fact) for skill in skills for edge in skill.edges}
@@ -95,11 +93,11 @@ def run_view(file: str, chosen: RunChoice, breaks: Path | None, quiet: bool) -> 
 
 
 @terminal.procedures_talk()
-def training_view(folder: Path, seed: int | None, quiet: bool) -> "tuple[Viewed, Learning]":
+def training_view(folder: Path, seed: int | None) -> "tuple[Viewed, Learning]":
     """The champion of a training's folder that was found last, at its beginning, and all others."""
     from mindrun.train import NotFoundError
 
-    from mindlang.cli._session import ensure_compiled
+    from mindlang.cli._session import RunSession, ensure_compiled
     from mindlang.view.learning import open_learning
     from mindlang.view.messages import RefusedError
 
@@ -107,7 +105,7 @@ def training_view(folder: Path, seed: int | None, quiet: bool) -> "tuple[Viewed,
         try:
             learning = open_learning(folder, secrets.randbits(31) if seed is None else seed)
             number, attempt, generation = learning.newest()
-            ensure_compiled(learning.rollout(number), lambda line: terminal.tell(line, quiet=quiet))
+            ensure_compiled(learning.rollout(number), RunSession().say)
             return learning.begin(number, attempt, generation), learning
         except RefusedError as error:
             terminal.fail(str(error))
@@ -115,10 +113,15 @@ def training_view(folder: Path, seed: int | None, quiet: bool) -> "tuple[Viewed,
 
 def _show_recording(file: str, bundle: Path, follow: bool, breaks: Path | None, output: "ViewOutput") -> None:
     """Show a recording: read once, or followed while it is written, of this machine or as HOST:FILE."""
-    from mindlang.cli._session import refusing_recordings
+    from mindlang.breakpoints.watch import RecordingWatcher, recording_subject
+    from mindlang.cli._session import read_breakpoints, refusing_recordings
     from mindlang.view.viewed_recording import followed_recording, viewed_recording
 
-    watching = _watching(breaks) if breaks else None
+    watching: Watching | None = (
+        (lambda of, mind: RecordingWatcher(read_breakpoints(breaks, recording_subject(of, mind)), of, mind))
+        if breaks
+        else None
+    )
     with ExitStack() as stack:
         with refusing_recordings():
             if follow:
@@ -128,14 +131,6 @@ def _show_recording(file: str, bundle: Path, follow: bool, breaks: Path | None, 
         output.show(viewed)
 
 
-def _watching(breaks: Path) -> "Watching":
-    """A function that makes the watcher of a recording, for the breakpoints of a file."""
-    from mindlang.breakpoints.watch import RecordingWatcher, recording_subject
-    from mindlang.cli._session import read_breakpoints
-
-    return lambda of, mind: RecordingWatcher(read_breakpoints(breaks, recording_subject(of, mind)), of, mind)
-
-
 @dataclass(frozen=True, slots=True)
 class ViewOutput:
     """The output of `mindc view`: the file `export`, or a page served at a `port`, None for any that is free."""
@@ -143,7 +138,6 @@ class ViewOutput:
     port: int | None
     opens_browser: bool
     export: Path | None
-    quiet: bool
 
     def show(self, viewed: "Viewed", learning: "Learning | None" = None) -> None:
         """Write the file, or serve until Ctrl-C."""
@@ -154,7 +148,8 @@ class ViewOutput:
 
         def ready(address: str) -> None:
             click.echo(address, file=out)
-            terminal.tell("Ctrl-C ends this; a browser that is closed does not.", quiet=self.quiet)
+            if not is_quiet:
+                terminal.tell("Ctrl-C ends this; a browser that is closed does not.")
             if self.opens_browser:
                 open_browser(address)
 
@@ -163,7 +158,7 @@ class ViewOutput:
             return
         if not viewed.is_live:
             viewed.grow()  # what the page shows first
-        out = sys.stdout  # procedures print elsewhere
+        out, is_quiet = sys.stdout, terminal.is_asked("quiet")  # procedures print elsewhere
         with terminal.refusing(terminal.MISUSE, of=PortError), terminal.procedures_talk():
             asyncio.run(ViewServer(ViewSession(viewed, learning), self.port or 0).serve(ready))
 
@@ -174,7 +169,7 @@ class ViewOutput:
         from mindlang.view.export import exported, exported_images, refuse_too_large_page
         from mindlang.view.session import ViewSession
 
-        session = RunSession(self.quiet)
+        session = RunSession()
         with session.progress() as progress, terminal.procedures_talk():
             bar = progress.add_task(path.name, total=viewed.about["of_ticks"])
             while not viewed.over:
@@ -192,4 +187,4 @@ class ViewOutput:
         terminal.write_file(path, page.encode())
         session.say(f"{path}: {in_words(viewed.known)}, {len(page) / 1e6:.1f} MB, opens in any browser")
         if images and images.note:
-            session.say(f"note: {images.note}")
+            session.note(images.note)

@@ -1,4 +1,9 @@
-"""`mindc weights`: weights of a skill from other programs, and for them."""
+"""`mindc weights`: weights of a skill from other programs, and for them.
+
+Examples:
+  mindc weights export collect.mind GoToObject goto.safetensors
+  mindc weights import collect.mind GoToObject goto.safetensors
+"""
 
 import sys
 from collections.abc import Iterator
@@ -9,31 +14,15 @@ import click
 
 from mindlang.cli import Suggesting
 from mindlang.cli import _terminal as terminal
-from mindlang.cli._options import PATH, SKILLS
+from mindlang.cli._options import PATH, SKILLS, flag, json_flag, quiet_flag
 from mindlang.number_format import short_score
 
 if TYPE_CHECKING:
     from mindlang.training.subject import Subject
     from mindlang.weights.importing import Imported
 
-EXAMPLES = """\b
-Examples:
-  mindc weights export collect.mind GoToObject goto.safetensors
-  mindc weights import collect.mind GoToObject goto.safetensors
-"""
-IMPORT_EXAMPLES = """\b
-Examples:
-  mindc weights import collect.mind GoToObject goto.safetensors
-  mindc weights import collect.mind GoToObject goto.safetensors --recording day.rec,collect.bundle
-  mindc weights import collect.mind GoToObject goto.safetensors --force --json
-"""
-EXPORT_EXAMPLES = """\b
-Examples:
-  mindc weights export collect.mind GoToObject goto.safetensors
-"""
 
-
-@click.group(cls=Suggesting, epilog=EXAMPLES)
+@click.group(cls=Suggesting)
 def command() -> None:
     """Exchange the weights of a skill with other programs.
 
@@ -41,19 +30,17 @@ def command() -> None:
     """
 
 
-@command.command("import", epilog=IMPORT_EXAMPLES)
+@command.command("import")
 @click.argument("file")
 @click.argument("skill", shell_complete=SKILLS)
 @click.argument("weights", metavar="WEIGHTS.safetensors", type=PATH)
 @click.option(
     "--recording", metavar="DAY.rec[,BUNDLE]", help="Compare on what was read there. Default: in a run of the task."
 )
-@click.option("--force", is_flag=True, help="Take them even where they do worse than those that are there.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
-@click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors.")
-def import_weights(
-    file: str, skill: str, weights: Path, recording: str | None, force: bool, as_json: bool, quiet: bool
-) -> None:
+@flag("--force", "Take them even where they do worse than those that are there.")
+@json_flag()
+@quiet_flag("Print nothing but errors.")
+def import_weights(file: str, skill: str, weights: Path, recording: str | None, force: bool) -> None:
     """Take the weights of SKILL from a file into the lock of FILE.
 
     Says by how much the function in PyTorch (where that is not installed, in float64) and the engine differ at most on
@@ -62,23 +49,28 @@ def import_weights(
     the file's procedures.
 
     Ends with 1 where the lock stays as it is.
+
+    Examples:
+      mindc weights import collect.mind GoToObject goto.safetensors
+      mindc weights import collect.mind GoToObject goto.safetensors --recording day.rec,collect.bundle
+      mindc weights import collect.mind GoToObject goto.safetensors --force --json
     """
     from mindrun.train import NotFoundError
 
-    from mindlang.cli._session import ensure_compiled
+    from mindlang.cli._session import RunSession, ensure_compiled
     from mindlang.weights import importing
 
-    subject = _subject(file)
+    subject, session = _subject(file), RunSession()
     with (
         terminal.refusing(end="."),
         terminal.refusing(terminal.MISUSE, ".", of=NotFoundError),
         terminal.procedures_talk(),
     ):
         trial = importing.open_trial(subject, skill, weights)
-        ensure_compiled(trial.rollout, lambda line: terminal.tell(line, quiet=quiet))
+        ensure_compiled(trial.rollout, session.say)
         found = importing.import_weights(trial, recording, force)
-    terminal.tell(*_lines(found, subject.keep_path(trial.lesson).name, recording), quiet=quiet)
-    if as_json:
+    session.say(*_lines(found, subject.keep_path(trial.lesson).name, recording))
+    if terminal.is_asked("as_json"):
         terminal.print_json(found.data())
     sys.exit(terminal.OK if found.is_kept else terminal.FINDINGS)
 
@@ -111,7 +103,7 @@ def _lines(found: "Imported", lock: str, recording: str | None) -> Iterator[str]
     yield from found.notes
 
 
-@command.command("export", epilog=EXPORT_EXAMPLES)
+@command.command("export")
 @click.argument("file")
 @click.argument("skill", shell_complete=SKILLS)
 @click.argument("weights", metavar="WEIGHTS.safetensors", type=PATH)
@@ -119,6 +111,9 @@ def export_weights(file: str, skill: str, weights: Path) -> None:
     """Write the weights that SKILL of FILE was taught to a file.
 
     With what they read and send, in their order. Brought back by import they are the same to the bit.
+
+    Examples:
+      mindc weights export collect.mind GoToObject goto.safetensors
     """
 
     from mindlang.weights.network import to_bytes, trained_network
@@ -134,8 +129,6 @@ def _subject(file: str) -> "Subject":
     """The mind of a file with its lock; a damaged lock ends the program."""
     from mindlang.training.subject import open_subject
 
-    if file == "-":
-        why = "Weights are kept beside a file, and standard input is none."
-        terminal.fail(why, "Save it as a file.", terminal.MISUSE)
+    terminal.refuse_standard_input(file, "Weights are kept beside a file, and standard input is none.")
     with terminal.refusing(end="."):
         return open_subject(Path(file), terminal.load_compiled(file))

@@ -1,4 +1,14 @@
-"""`mindc whatif`: a run with something changed, beside the run as it was."""
+"""`mindc whatif`: a run with something changed, beside the run as it was.
+
+Examples:
+  mindc whatif collect.mind --task Collect --seed 3 --tick 812 --without Avoid
+  mindc whatif collect.mind --seed 3 --sensor proximity=1 --picture paths.png
+  mindc whatif collect.mind --tick 812 --set object_bearing=0.5 --ticks 60
+  mindc whatif collect.mind --seed 3 --tick 812 --without Avoid --json
+  mindc whatif collect.mind --seed 3 --tick 812 --with other.mind
+  mindc whatif collect.mind --seed 3 --sensor proximity=other.rec
+  mindc whatif day.rec ball.bundle --without Avoid
+"""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,20 +23,10 @@ if TYPE_CHECKING:
     from mindlang.whatif.comparison import Compared
     from mindlang.whatif.request import Request
 
-EXAMPLES = """\b
-Examples:
-  mindc whatif collect.mind --task Collect --seed 3 --tick 812 --without Avoid
-  mindc whatif collect.mind --seed 3 --sensor proximity=1 --picture paths.png
-  mindc whatif collect.mind --tick 812 --set object_bearing=0.5 --ticks 60
-  mindc whatif collect.mind --seed 3 --tick 812 --without Avoid --json
-  mindc whatif collect.mind --seed 3 --tick 812 --with other.mind
-  mindc whatif collect.mind --seed 3 --sensor proximity=other.rec
-  mindc whatif day.rec ball.bundle --without Avoid
-"""
 SENSORS = options.declared("sensor")
 
 
-@click.command(epilog=EXAMPLES)
+@click.command
 @click.argument("file")
 @click.argument("bundle", required=False, type=options.PATH)
 @options.run_options(seed="Of the run. Default: 1.")
@@ -41,11 +41,9 @@ SENSORS = options.declared("sensor")
 )
 @click.option("--with", "other", metavar="OTHER.mind", help="Another mind takes over: other weights, another version.")
 @options.written("--picture", "PATH.png", "Draw both paths.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
-@click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
-def command(
-    file: str, bundle: Path | None, chosen: RunChoice, picture: Path | None, as_json: bool, quiet: bool, **said: Any
-) -> None:
+@options.json_flag()
+@options.quiet_flag()
+def command(file: str, bundle: Path | None, chosen: RunChoice, picture: Path | None, **said: Any) -> None:
     """Run a task of FILE as it is, and again with something changed.
 
     Both runs are the same to the bit until the tick of the change. Says in which tick they differ first and in what,
@@ -68,14 +66,12 @@ def command(
         terminal.fail("nothing is changed", f"Say what: {words}", terminal.MISUSE)
     if bundle is None:
         terminal.refuse_unwritable(picture, ".png")
-        _compare_runs(file, chosen, request, picture, as_json, quiet)
+        _compare_runs(file, chosen, request, picture)
     else:
-        _compare_recorded(Path(file), bundle, request, as_json)
+        _compare_recorded(Path(file), bundle, request)
 
 
-def _compare_runs(
-    file: str, chosen: RunChoice, request: "Request", picture: Path | None, as_json: bool, quiet: bool
-) -> None:
+def _compare_runs(file: str, chosen: RunChoice, request: "Request", picture: Path | None) -> None:
     """Run as it is and with changes, and print what differs."""
     from dataclasses import replace
 
@@ -86,13 +82,13 @@ def _compare_runs(
     from mindlang.whatif.report import comparison_data, comparison_summary
     from mindlang.whatif.request import changes_of
 
-    session, seed, theirs = RunSession(quiet), 1 if chosen.seed is None else chosen.seed, None
+    session, seed, theirs = RunSession(), 1 if chosen.seed is None else chosen.seed, None
     ours = session.prepare(file, chosen)
     if request.other:
         theirs = session.prepare(request.other, replace(chosen, task=ours.setup.task.name))
         if theirs.setup.task != ours.setup.task:
             where = f"task {ours.setup.task.name} is another in {request.other}"
-            session.say(f"note: {where}; one seed need not give one world")
+            session.note(f"{where}; one seed need not give one world")
     setup = (theirs or ours).setup
     with refusing_recordings():
         changes = changes_of(request, setup.ready.policy.graph, setup.master, Path(file))
@@ -102,9 +98,9 @@ def _compare_runs(
     ends = {change.last for change in changes if request.ticks is None and change.last and len(change.values) > 1}
     for end in sorted(ends):
         if end < compared.now.run.ticks:
-            session.say(f"note: a recording ends with tick {end:,}: from then on its sensor reads what it measures")
+            session.note(f"a recording ends with tick {end:,}: from then on its sensor reads what it measures")
     data = comparison_data(request, compared)
-    terminal.print_result(as_json, data, lambda: comparison_summary(request, compared))
+    terminal.print_result(data, lambda: comparison_summary(request, compared))
     if picture:
         session.say(f"{picture}: {_draw(compared, request, picture)}")
 
@@ -128,7 +124,7 @@ def _draw(compared: "Compared", request: "Request", path: Path) -> str:
     return shown
 
 
-def _compare_recorded(path: Path, bundle: Path, request: "Request", as_json: bool) -> None:
+def _compare_recorded(path: Path, bundle: Path, request: "Request") -> None:
     """Compute a recording as it was and with changes, and print what differs."""
     from mindrun.graph.bundle import read_bundle
 
@@ -146,4 +142,4 @@ def _compare_recorded(path: Path, bundle: Path, request: "Request", as_json: boo
             compiled = terminal.load_compiled(request.other)
             other = bundle_without_robot(ready_to_act(request.other, compiled), compiled.sources[0].folder)
         found = compare_recording(path, bundle, request, other)
-    terminal.print_result(as_json, recording_data(request, found), lambda: recording_summary(request, path.name, found))
+    terminal.print_result(recording_data(request, found), lambda: recording_summary(request, path.name, found))

@@ -1,4 +1,14 @@
-"""`mindc why`: who made a command, an influence or a reward."""
+"""`mindc why`: who made a command, an influence or a reward.
+
+Examples:
+  mindc why collect.mind --task Collect --seed 3 --tick 812 left_wheel
+  mindc why collect.mind --task Collect --seed 3 --tick 800..812 Avoid
+  mindc why collect.mind --task Collect --seed 3 --tick 800..812 reward
+  mindc why collect.mind --task Collect --seed 3 claw --json
+  mindc why day.rec ball.bundle --tick 812 left_wheel
+  mindc why run.rec collect.mind --tick 812 left_wheel   of mindc run --record
+  mindc why collect.mind --task Collect --ends --runs 300
+"""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,28 +23,18 @@ from mindlang.cli._terminal import MISUSE, print_result, procedures_talk, refusi
 if TYPE_CHECKING:
     from mindlang.attribution.answer import AttributedRun
 
-EXAMPLES = """\b
-Examples:
-  mindc why collect.mind --task Collect --seed 3 --tick 812 left_wheel
-  mindc why collect.mind --task Collect --seed 3 --tick 800..812 Avoid
-  mindc why collect.mind --task Collect --seed 3 --tick 800..812 reward
-  mindc why collect.mind --task Collect --seed 3 claw --json
-  mindc why day.rec ball.bundle --tick 812 left_wheel
-  mindc why run.rec collect.mind --tick 812 left_wheel   of mindc run --record
-  mindc why collect.mind --task Collect --ends --runs 300
-"""
 ASKED_ABOUT = options.declared("actuator", "memory", "skill")
 
 
-@click.command(epilog=EXAMPLES)
+@click.command
 @click.argument("words", nargs=-1, required=True, metavar="FILE [BUNDLE] WHAT", shell_complete=ASKED_ABOUT)
 @options.run_options(seed="Of the run; with --ends of the layouts, as in bench. Default: 1.")
 @click.option("--tick", type=options.tick_span, metavar="T or T..U", help="Which ticks, from 1. Default: all of them.")
 @click.option("--paths", type=options.WholeOption(1, 1000), help="How many are named. Default: 10.")
-@click.option("--ends", is_flag=True, help="Say how many runs end, and where the robot ran into something.")
+@options.flag("--ends", "Say how many runs end, and where the robot ran into something.")
 @click.option("--runs", type=options.RUNS, default=200, show_default=True, help="With --ends: on how many layouts.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
-@click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
+@options.json_flag()
+@options.quiet_flag()
 def command(
     words: tuple[str, ...],
     chosen: options.RunChoice,
@@ -42,8 +42,6 @@ def command(
     paths: int | None,
     ends: bool,
     runs: int,
-    as_json: bool,
-    quiet: bool,
 ) -> None:
     """Say who made a command, and with which shares.
 
@@ -58,27 +56,27 @@ def command(
     which skill moved the robot most, where on its body it ran into something, and what its rays had read.
     """
     if ends:
-        where_runs_end(words, chosen, runs, as_json, quiet)
+        where_runs_end(words, chosen, runs)
         return
     options.refuse_ineffective("of --ends", "runs")
     from mindlang.attribution.answer import QuestionError, answer
     from mindlang.attribution.report import answer_text
 
     *files, what = words
-    attributed = attributed_files(files, chosen, quiet)
+    attributed = attributed_files(files, chosen)
     with refusing(MISUSE, of=QuestionError), procedures_talk():
         found = answer(attributed, what, tick, paths)
-    print_result(as_json, found, lambda: answer_text(found))
+    print_result(found, lambda: answer_text(found))
 
 
-def attributed_files(files: Sequence[str], chosen: options.RunChoice, quiet: bool) -> "AttributedRun":
+def attributed_files(files: Sequence[str], chosen: options.RunChoice) -> "AttributedRun":
     """The run of a mind, made now, or the recording that is asked about, with its flows."""
     from mindlang.attribution.answer import attributed_recording, attributed_run
     from mindlang.cli._session import RunSession, refusing_recordings
 
     match files:
         case [file] if not file.endswith(".rec"):
-            session, seed = RunSession(quiet), 1 if chosen.seed is None else chosen.seed
+            session, seed = RunSession(), 1 if chosen.seed is None else chosen.seed
             return attributed_run(session.record(*session.prepare(file, chosen), seed).run, seed)
         case [recording, bundle]:
             options.refuse_ineffective(options.OF_RUNS_ALONE, *options.OF_A_RUN)
@@ -91,7 +89,7 @@ def attributed_files(files: Sequence[str], chosen: options.RunChoice, quiet: boo
             )
 
 
-def where_runs_end(words: Sequence[str], chosen: options.RunChoice, runs: int, as_json: bool, quiet: bool) -> None:
+def where_runs_end(words: Sequence[str], chosen: options.RunChoice, runs: int) -> None:
     """Make many runs, and print what the last ticks of those have in common that are over before their time."""
     from mindrun.sim.codes import GOING_ON
 
@@ -100,18 +98,17 @@ def where_runs_end(words: Sequence[str], chosen: options.RunChoice, runs: int, a
     from mindlang.cli._session import RunSession, refusing_setups
 
     options.refuse_ineffective("not for --ends, which looks at last ticks alone", "tick", "paths", "interrupt")
-    match words:
-        case [file] if not file.endswith(".rec"):
-            session, seed = RunSession(quiet), 1 if chosen.seed is None else chosen.seed
-        case _:
-            raise click.UsageError("--ends is of many runs of one mind: mindc why collect.mind --ends.")
+    file, *more = words
+    if more or file.endswith(".rec"):
+        raise click.UsageError("--ends is of many runs of one mind: mindc why collect.mind --ends.")
+    session, seed = RunSession(), 1 if chosen.seed is None else chosen.seed
     setup, rollout = session.prepare(file, chosen, cores(), runs)
     with refusing_setups():
         seeds = setup.layouts(seed, runs)
-    session.say(*(f"note: {note}" for note in setup.world_notes))
+    session.note(*setup.world_notes)
     scores, *_ = session.score(rollout, seeds)
     with session.progress() as progress, procedures_talk():
         over = scores.ended_by[0] != GOING_ON
         made = progress.track(run_ends(setup, rollout, seeds, scores), int(over.sum()), description="their ends")
         data = ends_data(setup, seed, scores, [*made])
-    print_result(as_json, data, lambda: ends_text(data))
+    print_result(data, lambda: ends_text(data))

@@ -14,7 +14,7 @@ from mindrun.graph.graph import Graph
 from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.compile import Compiled, compile_source, load
-from mindlang.compiler.diagnostic import Diagnostic, errors
+from mindlang.compiler.diagnostic import errors
 from mindlang.compiler.source import MAX_SOURCE_BYTES, Span, decode_source, encode_source
 from mindlang.compiler.splice import spliced
 from mindlang.compiler.syntax import NOUNS, VERBS
@@ -22,7 +22,7 @@ from mindlang.editing import transaction
 from mindlang.editing.insertion import first_line
 from mindlang.editing.lock_update import UpdatedLocks, new_names, update_locks
 from mindlang.editing.project import EditError, MindChange, Project
-from mindlang.editing.world_names import now_called, renamed
+from mindlang.editing.world_names import Renaming, renamed
 from mindlang.lock import LockError, Locks, lock_text, locks_of
 
 NOTHING_UNSAVED: Mapping[Path, str] = {}
@@ -122,9 +122,8 @@ def refuse_in_families(project: Project, change: MindChange) -> None:
 
 def _refuse_captured(project: Project, change: MindChange, graph: Graph) -> None:
     """EditError where a rename makes a line mean something else: the new name is that of something else there."""
-    names = new_names(change)
-    meant = renamed(project.graph, lambda text, *nouns: now_called(text, names, *nouns))
-    if any(names.values()) and meant != renamed(graph, lambda text, *nouns: text):
+    now_called = Renaming(new_names(change), ()).name
+    if change.renamed and renamed(project.graph, now_called) != renamed(graph, lambda text, *nouns: text):
         old, new = change.renamed[0].old, change.renamed[0].new
         raise EditError(f"If {old} is called {new}, a line means something else.", "Choose another name.")
 
@@ -141,20 +140,17 @@ def _compiled(project: Project, texts: dict[Path, str]) -> Graph:
         known = {each.message for each in compile_source(main, main.path, project.texts).diagnostics}
         for worst in (each for each in wrong if each.message not in known):
             error = EditError(f"After this edit the mind would not compile. {worst.message}", worst.hint)
-            error.diagnostic = replace(_as_edited(worst), message=str(error))
+            labels = tuple(replace(label, span=_as_edited(label.span)) for label in worst.labels)
+            span = worst.span and _as_edited(worst.span)
+            error.diagnostic = replace(worst, message=str(error), span=span, labels=labels)
             raise error
     assert compiled.graph
     return compiled.graph
 
 
-def _as_edited(diagnostic: Diagnostic) -> Diagnostic:
-    """A diagnostic whose lines are those of a text that nobody has seen, and is said to."""
-
-    def named(span: Span) -> Span:
-        return replace(span, source=replace(span.source, name=f"{span.source.name} as edited"))
-
-    labels = tuple(replace(label, span=named(label.span)) for label in diagnostic.labels)
-    return replace(diagnostic, span=diagnostic.span and named(diagnostic.span), labels=labels)
+def _as_edited(span: Span) -> Span:
+    """A place in a text that nobody has seen, and is said to be one."""
+    return replace(span, source=replace(span.source, name=f"{span.source.name} as edited"))
 
 
 def write(edited: Edited) -> None:

@@ -6,7 +6,7 @@ from itertools import takewhile
 from mindlang.compiler import syntax
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import PARTS, Declaration, Fact, File, Number, Use
+from mindlang.compiler.syntax import PARTS, Declaration, Fact, File, Use
 
 INDENT = "  "
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "scene", "task", "curriculum")  # in the order of a file
@@ -76,11 +76,6 @@ def newline(source: Source) -> str:
 def insert_below(line: SourceLine, texts: Iterable[str]) -> Splice:
     """Lines below a line; where that is the last one and has no line end, the new last one has none."""
     return Splice(line.source, line.end, line.end, newline(line.source).join(["", *texts]))
-
-
-def insert_above(line: SourceLine, text: str) -> Splice:
-    """A line above a line."""
-    return Splice(line.source, line.start, line.start, text + newline(line.source))
 
 
 def remove_lines(first: SourceLine, last: SourceLine) -> Splice:
@@ -180,13 +175,8 @@ def use_line(file: File, path: str) -> Splice:
     line = f'use "{path}"'
     if used := [setting for setting in file.settings if isinstance(setting, Use)]:
         return insert_below(first_line(used[-1].span), [line])
-    return insert_above(first_line(file.settings[0].span), line)
-
-
-def number_lines(file: File, texts: Sequence[str]) -> Splice:
-    """Numbers below the last one, or below the last setting."""
-    numbers = [setting for setting in file.settings if isinstance(setting, Number)]
-    return insert_below(first_line((numbers or file.settings)[-1].span), texts)
+    first = first_line(file.settings[0].span)
+    return Splice(first.source, first.start, first.start, line + newline(first.source))
 
 
 def without_declarations(declarations: Iterable[Declaration]) -> tuple[Splice, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -44,10 +44,17 @@ def update_locks(
     gone = {names["skill"].get(skill.name, skill.name) for skill in before.skills}
     gone -= {skill.name for skill in after.skills}
     renaming = Renaming(names, (before, *neighbours))
-    kept = {path: _relabelled(lock, renaming, gone) for path, lock in locks.items()}
+    taken = set(names["skill"].values())  # by a line of a skill that was there once
+    kept: dict[Path, Lock] = {}
+    for path, lock in locks.items():
+        entries = (_entry(entry, renaming) for name, entry in lock.items() if name not in taken)
+        kept[path] = {entry.skill: entry for entry in entries if entry.skill not in gone}
     if change.replaced:
         own = {skill.name for skill in before.skills} - {change.replaced.new}
-        kept = {path: _moved(lock, change.replaced, own) for path, lock in kept.items()}
+        kept = {
+            path: {name: _moved(entry, change.replaced) if name in own else entry for name, entry in lock.items()}
+            for path, lock in kept.items()
+        }
     if change.unshared:
         kept = {path: _with_copy(lock, change.unshared, after) for path, lock in kept.items()}
     return _widened(locks, kept, names["skill"], before, after) if keep_weights else UpdatedLocks(kept, {})
@@ -59,13 +66,6 @@ def new_names(change: MindChange) -> dict[str, dict[str, str]]:
     for rename in change.renamed:
         names.setdefault(rename.noun, {})[rename.old] = rename.new
     return names
-
-
-def _relabelled(lock: Lock, renaming: Renaming, gone: set[str]) -> dict[str, Entry]:
-    """A lock with new names, without the lines of skills that are gone."""
-    taken = set(renaming.names["skill"].values())  # by a line of a skill that was there once
-    entries = (_entry(entry, renaming) for name, entry in lock.items() if name not in taken)
-    return {entry.skill: entry for entry in entries if entry.skill not in gone}
 
 
 def _entry(entry: Entry, renaming: Renaming) -> Entry:
@@ -97,14 +97,10 @@ def _entry(entry: Entry, renaming: Renaming) -> Entry:
     )
 
 
-def _moved(lock: Lock, replaced: Replaced, parents: Set[str]) -> dict[str, Entry]:
-    """A lock in which those of `parents` that influenced a skill influence the one that has taken its place."""
-
-    def moved(entry: Entry) -> Entry:
-        sends = (replaced.new if name == replaced.old else name for name in entry.signature.sends)
-        return replace(entry, signature=replace(entry.signature, sends=tuple(sends)))
-
-    return {name: moved(entry) if name in parents else entry for name, entry in lock.items()}
+def _moved(entry: Entry, replaced: Replaced) -> Entry:
+    """The line of a skill that, if it influenced another, influences the one that has taken its place."""
+    sends = (replaced.new if name == replaced.old else name for name in entry.signature.sends)
+    return replace(entry, signature=replace(entry.signature, sends=tuple(sends)))
 
 
 def _with_copy(lock: Lock, unshared: Unshared, graph: Graph) -> dict[str, Entry]:
@@ -167,19 +163,12 @@ def _widened(locks: Locks, kept: Locks, new_names: Mapping[str, str], before: Gr
                 wide[path][name], made = found
                 hashes[name, lock[name].weights] = wide[path][name].weights
                 weights[blob(path.parent, wide[path][name].weights)] = made
-    return UpdatedLocks({path: _taught_with(lock, hashes) for path, lock in wide.items()}, weights)
-
-
-def _taught_with(lock: Lock, hashes: Mapping[tuple[str, str], str]) -> dict[str, Entry]:
-    """Widened subskills do the same as before: a skill that was taught with them still is."""
-    return {
-        name: replace(
-            entry,
-            subskills=tuple((sub, hashes.get((sub, old), old)) for sub, old in entry.subskills),
-            origin=entry.origin and (entry.origin[0], hashes.get(entry.origin, entry.origin[1])),
-        )
-        for name, entry in lock.items()
-    }
+    for lock in wide.values():  # they do the same as before: a skill that was taught with them still is
+        for name, entry in lock.items():
+            subskills = tuple((sub, hashes.get((sub, old), old)) for sub, old in entry.subskills)
+            origin = entry.origin and (entry.origin[0], hashes.get(entry.origin, entry.origin[1]))
+            lock[name] = replace(entry, subskills=subskills, origin=origin)
+    return UpdatedLocks(wide, weights)
 
 
 def _wide(entry: Entry, old: Skill, graph: Graph, new: Skill) -> tuple[Entry, Weights] | None:

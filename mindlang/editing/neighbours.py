@@ -28,10 +28,9 @@ def minds(files: Iterable[str]) -> dict[str, Compiled]:
     names = {realpath(file) if file != "-" else file: file for file in reversed(list(files))}
     found = {file: load(file) for file in reversed(names.values())}
     used = {source.path for each in found.values() for source in each.sources[1:]}
-    return {file: each for file, each in found.items() if each.graph or not each.sources or not _is_part(each, used)}
-
-
-def _is_part(compiled: Compiled, used: Collection[Path]) -> bool:
-    """True if a file is one of those `used`, or a mind beside it or above uses it."""
-    path = compiled.sources[0].path
-    return path in used or next(neighbours([path]), None) is not None
+    parts = {
+        file
+        for file, each in found.items()
+        if not each.graph and each.sources and (each.sources[0].path in used or any(neighbours([each.sources[0].path])))
+    }
+    return {file: each for file, each in found.items() if file not in parts}

@@ -165,13 +165,10 @@ class Project:
     def refuse_used(self, noun: str, name: str, but: Sequence[Declaration]) -> None:
         """EditError where a name stands anywhere `but` in these declarations."""
         used = [mention for mention in self.mentions(noun, name) if mention.by not in but]
-        if not used:
-            return
-        first, *others = (mention.name.span for mention in used)
         hint = "Take these lines out first."
         if any(mention.by is None for mention in used):
             hint = "Let another skill be the master first: " + self.main.source.edit("replace", name, "OTHER")
-        raise EditError(f"{name} is still used.", hint, first, *(Label(span, "and here") for span in others))
+        refuse_mentioned(name, used, hint)
 
     def file_of(self, declaration: Declaration) -> File:
         """The file in which a declaration stands."""
@@ -298,6 +295,13 @@ def refuse_misnamed(noun: str, name: str) -> None:
         better = proper("sensor" if noun in ("thing", "draw", "number") else noun, name)
         hint = f"Write {better}." if _is_name(noun, better) else f"Write for example {EXAMPLES.get(noun, 'GoThere')}."
         raise EditError(f"{name} cannot be the name of {a(noun)}.", hint)
+
+
+def refuse_mentioned(name: str, used: Sequence[Mention], hint: str) -> None:
+    """EditError where there are such mentions of a name."""
+    if used:
+        first, *others = (mention.name.span for mention in used)
+        raise EditError(f"{name} is still used.", hint, first, *(Label(span, "and here") for span in others))
 
 
 def refuse_lines(text: str) -> None:

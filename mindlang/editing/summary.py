@@ -9,6 +9,7 @@ from mindrun.graph.graph import Graph
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.editing.apply import Edited
+from mindlang.editing.lock_update import new_names
 from mindlang.editing.unified_diff import unified
 from mindlang.files import files_beside, readable_text, within_read_limits
 from mindlang.lock import Locks, merged
@@ -100,8 +101,8 @@ def _neighbour_sentences(edited: Edited) -> list[str]:
 
 def _old_names(edited: Edited, after: Statuses) -> dict[str, str]:
     """The name that each skill had before the edit."""
-    renamed = {rename.new: rename.old for rename in edited.change.renamed if rename.noun == "skill"}
-    return {skill: renamed.get(skill, skill) for skill in after}
+    old = {new: old for old, new in new_names(edited.change)["skill"].items()}
+    return {skill: old.get(skill, skill) for skill in after}
 
 
 def _statuses(graph: Graph, locks: Locks, sources: list[Path]) -> Statuses:

@@ -52,7 +52,14 @@ def change(folder: Path, files: Files, check: Callable[[], None] = lambda: None,
         try:
             were = {path: _get(path) for path in (note, *files)}
             noted = {path.relative_to(folder).as_posix(): _Noted(were[path], _hash(files[path])) for path in files}
-            _change({note: msgspec.json.encode(noted), **files} if keeps else {**files}, were)
+            writing = {note: msgspec.json.encode(noted), **files} if keeps else {**files}
+            try:
+                for path, data in writing.items():
+                    if data != were[path]:
+                        _exchange(path, data, were[path])
+            except BaseException:
+                _put_back(writing, were)
+                raise
         except OSError as error:
             raise TransactionError(f"{error.filename or folder} cannot be written: {error.strerror}") from error
 
@@ -112,16 +119,6 @@ def _before(folder: Path) -> Files:
             message = f"{path} has been changed since the last edit was written"
             raise TransactionError(message, "nothing has been taken back")
     return {path: each.was for path, each in files.items()}
-
-
-def _change(files: dict[Path, bytes | None], were: Files) -> None:
-    try:
-        for path, data in files.items():
-            if data != were[path]:
-                _exchange(path, data, were[path])
-    except BaseException:
-        _put_back(files, were)
-        raise
 
 
 def _put_back(files: dict[Path, bytes | None], were: Files) -> None:

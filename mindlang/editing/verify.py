@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from mindlang.editing.apply import Edited
 from mindlang.editing.lock_update import new_names
 from mindlang.editing.project import EditError
-from mindlang.editing.world_names import NounNames, now_called, renamed
+from mindlang.editing.world_names import NounNames, Renaming, renamed
 from mindlang.lock import Lock, merged
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import Trained, status, trained_weights
@@ -62,7 +62,7 @@ def verify_unchanged(edited: Edited, prepare: Callable[[Rollout], None] = Rollou
     before = MindVersion(arrange(edited.project.graph, lock), lock, {}, folder)
     after = MindVersion(arrange(edited.graph, now), now, edited.followed.weights, folder)
     names = new_names(edited.change)
-    called = renamed(before.graph, lambda text, *nouns: now_called(text, names, *nouns))
+    called = renamed(before.graph, Renaming(names, ()).name)
     done = []
     for skill, state in status(before.graph, lock).items():
         master = names["skill"].get(skill, skill)

@@ -171,7 +171,8 @@ class Renaming:
     def _read_again(self, role: Role, text: str) -> str:
         """A text that no mind says now, read as the fact that it was once, with other names."""
         if role not in _AROUND_SENTENCE:
-            return self.name(text, "skill", "actuator", "memory") if _is_name(role) else text
+            is_name = role[0] == "skill" and role[-1] not in ("is", "chooses")
+            return self.name(text, "skill", "actuator", "memory") if is_name else text
         before, after = _AROUND_SENTENCE[role](text)
         source = Source("a fact", f"{before}{text}{after}")
         try:
@@ -181,11 +182,6 @@ class Renaming:
         mentions = mentions_in(fact, self._declared, None)
         splices = (replace_span(each.name.span, self.name(each.name.text, each.noun)) for each in mentions)
         return spliced(source, splices).removeprefix(before).removesuffix(after)
-
-
-def _is_name(role: Role) -> bool:
-    """True if a text of a lock that stands there is the name of a part of the mind."""
-    return role[0] == "skill" and role[-1] not in ("is", "chooses")
 
 
 def _mapped(value: Any, role: Role, text: Callable[[Role, str], str]) -> Any:

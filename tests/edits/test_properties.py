@@ -19,7 +19,7 @@ from mindlang.editing.edits import edit, names
 from mindlang.editing.project import EditError, Project
 from tests.edits.sources import ACTUATORS, LIKE, MAIN, PARTS, SENSORS, SKILLS, Texts, minds
 
-OFTEN, SELDOM = 5000, 40  # cases of each test in the slow suite, and in the other
+OFTEN, SELDOM = 5000, 15  # cases of each test in the slow suite, and in the other
 FREE = ("New", "Go+New", "Roam", "Over")
 WORDS = (
     *SKILLS,
@@ -317,8 +317,9 @@ def test_an_edit_and_its_reverse_give_back_the_text(texts: Texts, data: st.DataO
 
 
 @given(minds())
-@settings(max_examples=SELDOM, suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much])
+@settings(max_examples=10, suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much])
 def test_families_mean_what_they_mean_written_out(texts: Texts) -> None:
+    assume(" where N is " in texts.files[MAIN])
     graph = texts.compiled().graph
     unfolded = done_or_refused(texts, Asked("unfold", {}))
     assume(isinstance(unfolded, Texts))

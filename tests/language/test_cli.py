@@ -52,11 +52,11 @@ def test_check_as_json_is_one_document(mindc: Call) -> None:
     assert [diagnostic["code"] for diagnostic in data["diagnostics"]] == ["unknown-sensor"]
 
 
-def test_a_dash_is_standard_input() -> None:
-    assert process("check", "-", text=RIGHT.read_text(encoding="utf-8")).returncode == 0
-    found = process("check", "-", text="reads x\n")
+def test_a_dash_is_standard_input_and_colours_are_only_on_a_terminal() -> None:
+    found = process("check", "-", text="reads x\n", NO_COLOR="", FORCE_COLOR="")
     assert found.returncode == 1
     assert "<stdin>:1:1: error:" in found.stderr
+    assert "\x1b" not in found.stderr
 
 
 def test_show_draws_a_shared_skill_once(mindc: Call) -> None:
@@ -153,10 +153,6 @@ def test_the_quick_commands_import_nothing_heavy(arguments: list[str]) -> None:
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=600)
     loaded = set(ran.stderr.split("loaded", 1)[1].split())
     assert not HEAVY & loaded
-
-
-def test_colours_only_on_a_terminal() -> None:
-    assert "\x1b" not in process("check", WRONG, NO_COLOR="", FORCE_COLOR="").stderr
 
 
 @pytest.mark.parametrize(

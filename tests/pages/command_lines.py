@@ -108,8 +108,10 @@ def _of_python(words: list[str]) -> str:
             return ""
     if not script.exists():
         return f"there is no {script.name}"
-    said = _help(script)
-    return ", ".join(word for word in options if word.startswith("--") and f" {word}" not in said)
+    said = script.read_text(encoding="utf-8")
+    asked = [word for word in options if word.startswith("--") and f'"{word}"' not in said]
+    said = _help(script) if asked else ""  # where another file says which there are
+    return ", ".join(word for word in asked if f" {word}" not in said)
 
 
 @cache

@@ -8,10 +8,11 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+from tests.pages.server import CLIENT
 from tests.pages.transcript import Command, Write
 from tests.project.sources import ROOT
 
-PROGRAMS = {"mindc": "from mindlang.cli import main; main()", "mindrun": "from mindrun.__main__ import main; main()"}
+PROGRAMS = {"mindc": ("-SEc", CLIENT), "mindrun": ("-c", "from mindrun.__main__ import main; main()")}
 LONGEST_SECONDS = 1800
 OF_COLLECT = {  # pages whose reader is in the folder of examples/collect
     f"docs/{name}.md"
@@ -35,11 +36,9 @@ class Reader:
         shutil.copytree(ROOT / "examples", home / "examples", ignore=shutil.ignore_patterns("runs"))
         (home / "bin").mkdir()
         (home / ".config" / "fish" / "completions").mkdir(parents=True)  # as fish makes it when it first runs
-        for name, code in PROGRAMS.items():
+        for name, words in PROGRAMS.items():
             program = home / "bin" / name
-            program.write_text(
-                f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -c {shlex.quote(code)} "$@"\n', encoding="utf-8"
-            )
+            program.write_text(f'#!/bin/sh\nexec {shlex.join([sys.executable, *words])} "$@"\n', encoding="utf-8")
             program.chmod(0o755)
         return cls(home, home / "examples" / "collect" if page in OF_COLLECT else home)
 

@@ -24,7 +24,8 @@ RUN = [
     if page not in MADE
     and any(isinstance(step, Command | Program) for step in steps((ROOT / page).read_text(encoding="utf-8")))
 ]
-SLOW = {"docs/tour.md", "docs/breakpoints.md"}  # they take more than ten seconds of a core, and are not read first
+# They take more than ten seconds of a core, are not read first, and what they do is tested in tests/run as well.
+SLOW = {"docs/tour.md", "docs/breakpoints.md", "docs/lifelong.md", "docs/logs.md"}
 PICTURE_BYTES = 180_000
 LEFT = {"docs/tutorial.md": "rover"}  # what a page ends with, as an example
 SAME_PIXELS = 2.0  # mean difference of two pictures, of 255, below which only a library draws its letters otherwise
@@ -40,6 +41,7 @@ def marked() -> list[object]:
     return [pytest.param(page, id=name(page), marks=[pytest.mark.slow] if name(page) in SLOW else []) for page in RUN]
 
 
+@pytest.mark.usefixtures("imported_mindc")
 @pytest.mark.parametrize("page", marked())
 def test_a_page_does_what_it_says(tmp_path: Path, page: Path) -> None:
     reader = Reader.of(name(page), tmp_path)

@@ -72,7 +72,7 @@ def test_an_error_that_is_no_port_s_says_nothing_about_ports(rules: Path) -> Non
     def unready(address: str) -> None:
         raise OSError(errno.EMFILE, "Too many open files")
 
-    viewed = run_view(str(rules), RunChoice("Chase", 3, None, True), None, True)
+    viewed = run_view(str(rules), RunChoice("Chase", 3, None, True), None)
     with pytest.raises(OSError, match="Too many open files"):
         asyncio.run(ViewServer(ViewSession(viewed)).serve(unready))
 
@@ -135,7 +135,7 @@ def test_a_browser_with_windows_is_opened_and_no_other(monkeypatch: pytest.Monke
 
 
 def test_what_edges_say_is_told(rules: Path) -> None:
-    viewed = run_view(str(rules), RunChoice("Chase", 3, None, True), None, True)
+    viewed = run_view(str(rules), RunChoice("Chase", 3, None, True), None)
     texts = {edge["text"] for edge in viewed.about["edges"]}
     assert {"at 1", "at 0.2", "at 3 * ball_bearing - 0.7"} <= texts
 
@@ -143,7 +143,7 @@ def test_what_edges_say_is_told(rules: Path) -> None:
 def test_breakpoints_of_a_file_stop_the_run(rules: Path, mindc: Call) -> None:
     breaks = rules.with_name("chase.break")
     breaks.write_text("stop on 2 reach of ball\nstop in tick 9\n")
-    viewed = run_view(str(rules), RunChoice("Chase", 3, None, True), breaks, True)
+    viewed = run_view(str(rules), RunChoice("Chase", 3, None, True), breaks)
     while not viewed.over:
         viewed.grow()
     reached = [tick for tick, event in viewed.happened if viewed.about["events"][event]["kind"] == "reach"]

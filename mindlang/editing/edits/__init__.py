@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from inspect import Parameter, getdoc, signature
 from pkgutil import iter_modules
-from typing import Annotated, Any, get_args, get_origin, get_type_hints
+from typing import Any, get_args, get_origin, get_type_hints
 
 Function = Callable[..., Any]
 
@@ -44,22 +44,13 @@ def edit(name: str) -> Edit:
     """The edit of that name: the function `NAME` in the module `mindlang.editing.edits.NAME`."""
     function = getattr(import_module(f"{__name__}.{name}"), name)
     hints = get_type_hints(function, include_extras=True)
-    parameters = list(signature(function).parameters.values())[1:]  # the first is the project
     text, _, example = (getdoc(function) or "").partition("Example: ")
-    return Edit(
-        name,
-        function,
-        tuple((p.name, _is_repeatable(hints[p.name])) for p in parameters if p.kind is not Parameter.KEYWORD_ONLY),
-        tuple(
-            EditOption(p.name, _is_repeatable(hints[p.name]), p.default, get_args(hints[p.name])[1])
-            for p in parameters
-            if p.kind is Parameter.KEYWORD_ONLY
-        ),
-        text.strip(),
-        f"Example: {example.strip()}",
-    )
-
-
-def _is_repeatable(hint: Any) -> bool:
-    plain = get_args(hint)[0] if get_origin(hint) is Annotated else hint
-    return get_origin(plain) is tuple
+    arguments, options = list[tuple[str, bool]](), list[EditOption]()
+    for parameter in [*signature(function).parameters.values()][1:]:  # the first is the project
+        hint, key = hints[parameter.name], parameter.name
+        if parameter.kind is Parameter.KEYWORD_ONLY:
+            plain, about = get_args(hint)
+            options.append(EditOption(key, get_origin(plain) is tuple, parameter.default, about))
+        else:
+            arguments.append((key, get_origin(hint) is tuple))
+    return Edit(name, function, tuple(arguments), tuple(options), text.strip(), f"Example: {example.strip()}")

@@ -31,7 +31,11 @@ def add(
     said = [line.strip() for text in lines for line in text.splitlines()]
     if to:
         declaration = project.declared(to, noun, among=next(filter(None, map(insertion.owners, said)), insertion.NOUNS))
-        return MindChange(tuple(_facts(declaration, _read_facts(declaration, said))))
+        read = _read(said, declaration.header.span.text)
+        of, *others = read.declarations
+        if read.settings or others or not of.facts:
+            raise EditError("With --to only facts can be added.", "Begin with a verb: reads, rewards, teaches, ….")
+        return MindChange(tuple(_facts(declaration, of.facts)))
     return MindChange(tuple(_declarations(project, _read(said))))
 
 
@@ -45,7 +49,9 @@ def _declarations(project: Project, read: File) -> Iterator[Splice]:
     for number in numbers:
         project.refuse_taken("number", number.name.text)
     if numbers:
-        yield insertion.number_lines(project.main, [number.span.text for number in numbers])
+        settings = project.main.settings
+        last = [*settings, *(setting for setting in settings if isinstance(setting, Number))][-1]
+        yield insertion.insert_below(insertion.first_line(last.span), [number.span.text for number in numbers])
     for declaration in read.declarations:
         project.refuse_taken(declaration.header.noun.text, declaration.header.name.text)
     for noun in insertion.NOUNS:
@@ -65,15 +71,6 @@ def _facts(declaration: Declaration, said: Sequence[Fact]) -> Iterator[Splice]:
     for form in insertion.FACTS:
         if texts := [text for fact in said if isinstance(fact, form) for text in insertion.commented(fact)]:
             yield insertion.below_siblings(declaration, form, texts)
-
-
-def _read_facts(declaration: Declaration, lines: list[str]) -> tuple[Fact, ...]:
-    """The lines as facts of a declaration; EditError where one is none."""
-    read = _read(lines, declaration.header.span.text)
-    of, *others = read.declarations
-    if read.settings or others or not of.facts:
-        raise EditError("With --to only facts can be added.", "Begin with a verb: reads, rewards, teaches, ….")
-    return of.facts
 
 
 def _read(lines: list[str], header: str = "") -> File:

@@ -1,7 +1,5 @@
 """`mindc edit inline`."""
 
-from collections.abc import Iterable, Iterator
-
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import (
     Chooses,
@@ -39,18 +37,13 @@ def inline(project: Project, skill: str) -> MindChange:
     if not parents:
         message = f"No skill influences {skill}: nothing can take its place."
         raise EditError(message, "", declaration.header.span)
-    lines: list[Fact] = [*of_form(declaration.facts, Chooses), *_scoped(parents, skill)]
+    edges = [fact for parent in parents for fact in of_form(parent.facts, Influences) if fact.name.text == skill]
+    lines: list[Fact] = [*of_form(declaration.facts, Chooses), *(edge for edge in edges if edge.over)]
     for line in lines:
         message = f"{skill} says more of its influence than lines of others could."
         raise EditError(message, "Take this out first.", line.span)
     splices = (splice for parent in parents for splice in _taken_over(parent, declaration))
     return MindChange((*insertion.without_declarations([declaration]), *splices))
-
-
-def _scoped(parents: Iterable[Declaration], skill: str) -> Iterator[Influences]:
-    """The lines with which its parents influence a skill over some actuators alone."""
-    lines = (fact for parent in parents for fact in of_form(parent.facts, Influences))
-    return (fact for fact in lines if fact.over and fact.name.text == skill)
 
 
 def _taken_over(parent: Declaration, child: Declaration) -> list[Splice]:

@@ -2,11 +2,11 @@
 
 from typing import Annotated
 
-from mindlang.compiler.diagnostic import Label, did_you_mean
+from mindlang.compiler.diagnostic import did_you_mean
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import NOUNS, Declaration
 from mindlang.editing.insertion import first_line, owners, remove_lines, without_declarations, without_fact
-from mindlang.editing.project import EditError, MindChange, Project, suggestion
+from mindlang.editing.project import EditError, MindChange, Project, refuse_mentioned, suggestion
 
 
 def remove(
@@ -26,7 +26,13 @@ def remove(
     """
     words = " ".join(what).split()
     if from_:
-        return _fact(words, project.declared(from_, noun, among=owners(words[0]) or NOUNS))
+        declaration = project.declared(from_, noun, among=owners(words[0]) or NOUNS)
+        said = {" ".join(fact.span.text.split()): fact for fact in reversed(declaration.facts)}  # the first of two
+        text = " ".join(words)
+        if text not in said:
+            hint = did_you_mean(text, said) or "Say the line as it stands there, without its comment."
+            raise EditError(f"{declaration.header.name.text} does not say: {text}.", hint, declaration.header.span)
+        return MindChange((without_fact(said[text]),))
     if name := _name_of_number(project, words, noun):
         return MindChange((_number(project, name),))
     declaration = _declaration(project, words, noun)
@@ -48,10 +54,8 @@ def _number(project: Project, name: str) -> Splice:
     """The line of a number taken out; EditError where there is none, or where a line says its name."""
     if name not in project.names.numbers:
         raise EditError(f"There is no number called {name}.", suggestion(name, [*project.names.numbers]))
-    used = [mention.name.span for mention in project.everywhere("number", name) if not mention.is_own]
-    if used:
-        labels = [Label(span, "and here") for span in used[1:]]
-        raise EditError(f"{name} is still used.", "Write the number itself there first.", used[0], *labels)
+    used = [mention for mention in project.everywhere("number", name) if not mention.is_own]
+    refuse_mentioned(name, used, "Write the number itself there first.")
     line = first_line(project.names.numbers[name].span)
     return remove_lines(line, line)
 
@@ -66,13 +70,3 @@ def _declaration(project: Project, words: list[str], noun: str) -> Declaration:
     hint = did_you_mean(words[0], NOUNS) if len(words) == 2 else ""
     example = 'Write for example pulse, or "reads pulse" --from Avoid.'
     raise EditError(f"{' '.join(words)} is neither a name nor a noun and a name.", hint or example)
-
-
-def _fact(words: list[str], declaration: Declaration) -> MindChange:
-    """A declaration without the first of its facts that says these words; EditError where none does."""
-    said = {" ".join(fact.span.text.split()): fact for fact in reversed(declaration.facts)}
-    text = " ".join(words)
-    if text not in said:
-        hint = did_you_mean(text, said) or "Say the line as it stands there, without its comment."
-        raise EditError(f"{declaration.header.name.text} does not say: {text}.", hint, declaration.header.span)
-    return MindChange((without_fact(said[text]),))

@@ -113,7 +113,11 @@ def _declared(project: Project, name: str, noun: str) -> Mention:
     if noun:
         refuse_no_noun(noun, (*NOUNS, "thing", "draw", "number"))
     known = [mention for mention in introductions(project.files) if noun in ("", mention.noun)]
-    found = {mention.noun: mention for mention in known if name in (mention.name.text, _of_line(mention))}
+    found = {
+        mention.noun: mention
+        for mention in known
+        if mention.name.text == name or (is_of_family(mention.name) and mention.name.span.text == name)
+    }
     if not found:
         hint = suggestion(name, list(dict.fromkeys(mention.name.text for mention in known)))
         raise EditError(f"There is no {noun} called {name}." if noun else f"Nothing is called {name}.", hint)
@@ -123,11 +127,6 @@ def _declared(project: Project, name: str, noun: str) -> Mention:
         message = f"{name} is {listed(map(a, found), 'and')}."
         raise EditError(message, f"Say which: --noun {first.noun}", first.name.span, *labels)
     return first
-
-
-def _of_line(mention: Mention) -> str:
-    """The name that stands in the line of a family; empty for all others."""
-    return mention.name.span.text if is_of_family(mention.name) else ""
 
 
 def _refuse_taken(project: Project, noun: str, name: str) -> None:

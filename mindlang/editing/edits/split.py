@@ -13,19 +13,6 @@ def split(project: Project, to: str, names: tuple[str, ...]) -> MindChange:
 
     Example: mindc edit split collect.mind wheels.mind left_wheel right_wheel
     """
-    path = _new_file(project, to)
-    chosen = []
-    for noun, _, own in (name.rpartition(":") for name in dict.fromkeys(names)):
-        declaration = project.declared(own, noun, f"{{}}:{own}")
-        if project.file_of(declaration) is not project.main:
-            raise EditError(f"{own} stands in another file.", "", declaration.header.name.span)
-        chosen.append(declaration)
-    splices = (*without_declarations(chosen), use_line(project.main, Path(to).as_posix()))
-    return MindChange(splices, created={path: text_of(chosen)})
-
-
-def _new_file(project: Project, to: str) -> Path:
-    """The path of a file that is to be; EditError where it is there, or cannot be used."""
     main = project.main.source
     path = (main.folder / to).resolve()
     if not path.is_relative_to(main.folder) or path.suffix != ".mind" or '"' in to or Path(to).is_absolute():
@@ -34,4 +21,11 @@ def _new_file(project: Project, to: str) -> Path:
     used = (file.source.path.resolve() for file in project.files)  # an editor may not have saved them
     if path.exists() or path in used:
         raise EditError(f"{to} exists already.", "Choose another name.")
-    return path
+    chosen = []
+    for noun, _, own in (name.rpartition(":") for name in dict.fromkeys(names)):
+        declaration = project.declared(own, noun, f"{{}}:{own}")
+        if project.file_of(declaration) is not project.main:
+            raise EditError(f"{own} stands in another file.", "", declaration.header.name.span)
+        chosen.append(declaration)
+    splices = (*without_declarations(chosen), use_line(project.main, Path(to).as_posix()))
+    return MindChange(splices, created={path: text_of(chosen)})

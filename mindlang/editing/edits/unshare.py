@@ -1,10 +1,7 @@
 """`mindc edit unshare`."""
 
-from collections.abc import Iterator
-
 from mindlang.compiler.model import Skill
 from mindlang.compiler.references import mentions_in
-from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Fact, Promise, Sends, of_form
 from mindlang.editing.insertion import (
     first_line,
@@ -41,18 +38,10 @@ def unshare(project: Project, skill: str) -> MindChange:
     lines = [f"{indent}{_restated(project, owner, fact, unshared)}" for fact in shared]
     lines += [f"{indent}{line_of(promise)}" for promise in of_form(own.declaration.facts, Promise)]
     header = replace_span(declaration.header.span, f"skill {skill} is {phrase.span.text}")
-    return MindChange((header, *_below(own, lines)), unshared=unshared)
-
-
-def _below(skill: Skill, lines: list[str]) -> Iterator[Splice]:
-    """The lines in the place of what a skill says."""
-    declaration = skill.declaration
     if not declaration.facts:
-        yield insert_below(first_line(declaration.header.span), lines)
-        return
+        return MindChange((header, insert_below(first_line(declaration.header.span), lines)), unshared=unshared)
     first, *others = declaration.facts
-    yield replace_line(first, lines)
-    yield from map(without_fact, others)
+    return MindChange((header, replace_line(first, lines), *map(without_fact, others)), unshared=unshared)
 
 
 def _restated(project: Project, owner: Skill, fact: Fact, unshared: Unshared) -> str:
