@@ -78,7 +78,7 @@ task World in arena size 50
 """
 
 
-@pytest.mark.parametrize(("outcome", "seeds"), [("", (3, 6, 11)), ("reached moves", (5, 17))])
+@pytest.mark.parametrize(("outcome", "seeds"), [("", (3, 11)), ("reached moves", (5,))])
 def test_every_tick_is_what_plain_python_says(outcome: str, seeds: Sequence[int]) -> None:
     graph = compile_text(MIND.replace("CLAW", "ball_near + has_ball - in_home").replace("OUTCOME", outcome))
     happened = Counter[str]()

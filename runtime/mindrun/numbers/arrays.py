@@ -9,6 +9,11 @@ from numpy.typing import NDArray
 
 from mindrun.numbers.expression import Program, fold
 
+Array = NDArray[Any]
+Doubles = NDArray[np.float64]
+Singles = NDArray[np.float32]
+Integers = NDArray[np.int64]
+Mask = NDArray[np.bool_]
 Readings = NDArray[np.float32]
 Reader = Callable[[int, Readings, Readings | None], Readings | np.float32]  # the tick's number, readings now and before
 Weights = NDArray[np.float32]  # of one skill: [genes]

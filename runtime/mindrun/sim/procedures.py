@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.engine.engine import procedure_sources
 from mindrun.errors import ProcedureError
@@ -19,6 +18,7 @@ from mindrun.graph.weights import reachable
 from mindrun.kinds import procedure_call
 from mindrun.kinds.procedure_call import load
 from mindrun.kinds.procedure_text import module_of
+from mindrun.numbers.arrays import Singles
 from mindrun.sim.units import call
 
 
@@ -49,7 +49,7 @@ class Procedures:
         """The function of a skill, in a module of its own that remembers nothing."""
         return load(self.calls[skill], self._sources)
 
-    def explain(self, skill: str, inputs: NDArray[np.float32]) -> ProcedureError:
+    def explain(self, skill: str, inputs: Singles) -> ProcedureError:
         """The error of a compiled procedure that failed, which Python gives for the same inputs."""
         calls = self.calls[skill]
         try:

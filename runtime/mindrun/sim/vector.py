@@ -13,7 +13,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic, models, overload, register_model
 
-from mindrun.numbers.arithmetic import A1, A3, A5, A7, A9, A11, A13, B0, B2, B4, B6, HALF, LANES, SIGMOID_LIMIT
+from mindrun.numbers.arithmetic import DENOMINATOR, HALF, LANES, LIMIT, NUMERATOR
 
 _FLOAT = ir.FloatType()
 _VECTOR = ir.VectorType(_FLOAT, LANES)
@@ -151,12 +151,12 @@ def _sigmoids(builder: Any, xs: Any) -> Any:
             sums = plus(times(sums, ys), all_of(coefficient))
         return sums
 
-    low, high = number(-SIGMOID_LIMIT), number(SIGMOID_LIMIT)
+    low, high = number(-LIMIT), number(LIMIT)
     xs = times(xs, all_of(HALF))
     xs = [builder.select(builder.fcmp_ordered(">", x, low), x, low) for x in xs]
     xs = [builder.select(builder.fcmp_ordered("<", x, high), x, high) for x in xs]
     ys = times(xs, xs)
-    above = times(polynomial(A13, A11, A9, A7, A5, A3, A1), xs)
-    below = polynomial(B6, B4, B2, B0)
+    above = times(polynomial(*reversed(NUMERATOR)), xs)
+    below = polynomial(*reversed(DENOMINATOR))
     quotients = [builder.fdiv(a, b) for a, b in zip(above, below, strict=True)]
     return plus(all_of(HALF), times(all_of(HALF), quotients))

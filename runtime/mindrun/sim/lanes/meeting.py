@@ -8,12 +8,13 @@ added last first.
 
 import numpy as np
 
-from mindrun.numbers.arithmetic import BOX_COLUMNS, box_of
+from mindrun.numbers.arithmetic import box_of
 from mindrun.sim.codes import PERSISTENCE_TICKS, WALL_COUNT, Tables
 from mindrun.sim.lanes.loose import OF_LOOSE
 from mindrun.sim.lanes.nearest_points import LEAST_NORMAL, farthest, nearest_points
 from mindrun.sim.lanes.placement import ENDLESS_UNITS
-from mindrun.sim.lanes.shapes import overlap, put_corners, put_held
+from mindrun.sim.lanes.solid import count_of
+from mindrun.sim.lanes.solids import overlap, put_corners, put_held
 from mindrun.sim.state import FIRST_LOOSE, FIXED, HELD, ROBOT, ContactState, WorldState
 from mindrun.sim.units import unit_where
 
@@ -50,7 +51,7 @@ def swap(order, i, k):
 
 def sides_of(tables, world, solids, number, lane):
     """The sides of a solid or, behind these, of a box or, behind these, of a wall: left, low, right, top."""
-    b, boxes = number - FIRST_LOOSE - len(tables.loose), world.boxes.shape[1] // BOX_COLUMNS
+    b, boxes = number - FIRST_LOOSE - len(tables.loose), count_of(world.boxes)
     if b < 0:
         return solids[number].left, solids[number].low, solids[number].right, solids[number].high
     if b >= boxes:
@@ -62,13 +63,8 @@ def sides_of(tables, world, solids, number, lane):
 def wall_of(x, y, wall):
     """The sides of a wall of an arena: left, low, right, top."""
     far_x, far_y = x + 2 * HALF_WALL_UNITS, y + 2 * HALF_WALL_UNITS
-    if wall == 0:
-        return -far_x, -far_y, -x, far_y
-    if wall == 1:
-        return x, -far_y, far_x, far_y
-    if wall == 2:
-        return -far_x, -far_y, far_x, -y
-    return -far_x, y, far_x, far_y
+    left, low = x if wall == 1 else -far_x, y if wall == 3 else -far_y
+    return left, low, -x if wall == 0 else far_x, -y if wall == 2 else far_y
 
 
 def lies_in(cell, left, low, right, top, slot):
@@ -163,7 +159,7 @@ def find_close(tables, world, contact, a, lane):
     """Write down the boxes and walls that meet the rectangle around a solid; return how many do."""
     close, solid = contact.close[lane], contact.solids[lane, a]
     left, right, low, high = solid.left, solid.right, solid.low, solid.high
-    boxes, half_x, half_y = world.boxes.shape[1] // BOX_COLUMNS, tables.world[0].half_x, tables.world[0].half_y
+    boxes, half_x, half_y = count_of(world.boxes), tables.world[0].half_x, tables.world[0].half_y
     count = 0
     for b in range(boxes):
         x, y, wide, tall = box_of(world.boxes, b, lane)
