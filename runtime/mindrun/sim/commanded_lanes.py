@@ -117,10 +117,7 @@ class CommandedLanes:
     @property
     def lines(self) -> Doubles:
         """The sum that each reward line has paid in each run [lanes, lines]."""
-        paid = self.state.judge.lines[:, : self.count].T.copy()
-        if self._lost.any():
-            paid[self._lost] = self.jobs.lines[self._lost]
-        return paid
+        return self._of_runs(self.state.judge.lines, self.jobs.lines)
 
     @property
     def scores(self) -> Doubles:
@@ -130,10 +127,12 @@ class CommandedLanes:
     @property
     def counts(self) -> Integers:
         """The number of times that each event of the task has happened in each run [lanes, events]."""
-        happened = self.state.judge.counts[: len(self.rollout.task.events), : self.count].T.copy()
-        if self._lost.any():
-            happened[self._lost] = self.jobs.counts[self._lost, : happened.shape[1]]
-        return happened
+        return self._of_runs(self.state.judge.counts, self.jobs.counts)[:, : len(self.rollout.task.events)]
+
+    def _of_runs(self, rows: Array, written: Array) -> Array:
+        """What is known of each run [lanes, columns]: of one that was lost what was written down then."""
+        columns = written.shape[1]
+        return np.where(self._lost[:, None], written, rows[:columns, : self.count].T)
 
     def world_columns(self, lane: int) -> dict[str, Any]:
         """The world of a lane after its last tick, by the columns that a recording has of it."""

@@ -5,7 +5,7 @@ itself says its `shape`. What stands under "for this tick" is computed anew in e
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, make_dataclass
+from dataclasses import dataclass, field, fields, make_dataclass
 from typing import Any, TypeVar
 
 import numpy as np
@@ -156,23 +156,21 @@ class RunState(Block):
     failed: Array = shape(2)  # the skill whose procedure failed, or −1, and the column of `gathered`
 
 
-SENSED = (
-    "readings", "before", "body", "heading", "things", "held", "battery", "tick", "trail", "loose", "nearest",
-    "nearest_of", "frame", "sight", "boxes", "nearby", "nearby_count", "stack", "active", "seed", "influence", "swivel",
-)  # fmt: skip
-SENSED_PARTS: Mapping[str, type[Block]] = {"mind": MindState, "world": WorldState, "sight": SightState}
-
-
-def _part_with(name: str) -> str:
-    return next(part for part, kind in SENSED_PARTS.items() if name in kind.layout())
-
-
 # What the lane function of a sensor's kind sees of the state, and where it writes: arrays of its parts.
+SENSED: Mapping[str, tuple[type[Block], tuple[str, ...]]] = {
+    "mind": (MindState, ("readings", "before", "stack", "active", "influence")),
+    "sight": (SightState, ("nearest", "nearest_of", "frame", "sight", "nearby", "nearby_count")),
+    "world": (WorldState, (
+        "body", "heading", "things", "held", "battery", "tick", "trail", "loose", "boxes", "seed", "swivel",
+    )),
+}  # fmt: skip
 Senses = make_dataclass(
     "Senses",
     [
-        (name, Array, field(metadata=SENSED_PARTS[_part_with(name)].__dataclass_fields__[name].metadata))
-        for name in SENSED
+        (each.name, Array, field(metadata=each.metadata))
+        for part, names in SENSED.values()
+        for each in fields(part)
+        if each.name in names
     ],
     bases=(Block,),
     frozen=True,
@@ -192,7 +190,7 @@ class State(Block):
     senses: Senses = field(init=False)  # type: ignore[valid-type]
 
     def __post_init__(self) -> None:
-        of = {name: getattr(getattr(self, _part_with(name)), name) for name in SENSED}
+        of = {name: getattr(getattr(self, part), name) for part, (_, names) in SENSED.items() for name in names}
         object.__setattr__(self, "senses", Senses(**of))
 
 
