@@ -91,7 +91,7 @@ FOUND_ELSEWHERE = [  # what is changed, and how, where the machine code of `whol
     ("np.float32(0.5)", "np.float32(0.25)"),
     ("np.float32(0.5)", "np.float64(0.5)"),
     ("np.float64\n", "np.float32\n"),
-    ("np.dtype(np.int64)", "np.dtype(np.int32)"),
+    ("array(np.int64", "array(np.int32"),
     ("    numbers", "    first: Any = array(bool, 2, None)\n    numbers"),
     ("def other(x: int)", "def other(x: float)"),
     ("other(part.numbers[0])", "scaled(part.numbers[0])"),
