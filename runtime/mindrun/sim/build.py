@@ -15,7 +15,7 @@ from mindrun.numbers.arrays import Array, Singles
 from mindrun.numbers.expression import placed
 from mindrun.sim import task_rows
 from mindrun.sim.codes import CODE, SENSOR, Row, Tables, records, span
-from mindrun.sim.kind_lanes import sensor_unit
+from mindrun.sim.kind_lanes import read, unit_of
 from mindrun.sim.mind_rows import Programs, actuator_rows, memory_rows, skill_rows
 from mindrun.sim.parameter_rows import Parameters
 from mindrun.sim.task_rows import NOWHERE, boxes_by_name, rows_by_name
@@ -84,7 +84,7 @@ def sensor_rows(
         kind, roughness = sensor.kind, {} if sensor in exact else _roughness(sensor, parameters)
         about, solid = _all_of(kind.things, things), _all_of(kind.things, boxes)
         rows.append({
-            "lane": sensor_unit(kind).place, "start": sensor.start, "width": sensor.width,
+            "lane": unit_of(kind, read).place, "start": sensor.start, "width": sensor.width,
             **span("thing", about), "box": solid.start, "boxes": len(solid),
             "turns": not scene.directions.isdisjoint({sensor.name, kind.source}),
             "is_aside": sensor in aside, "every": 1,

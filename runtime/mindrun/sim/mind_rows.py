@@ -13,7 +13,7 @@ from mindrun.kinds.registry import names
 from mindrun.numbers.arrays import Array, Singles
 from mindrun.numbers.stack_machine import COMMAND, NEGATE, NUMBER, OPERATIONS
 from mindrun.sim.codes import ACTUATOR, ACTUATOR_CODES, EDGE, MEMORY, SKILL, Row, records
-from mindrun.sim.kind_lanes import skill_unit
+from mindrun.sim.kind_lanes import compute, unit_of
 from mindrun.sim.parameter_rows import SAME_IN_EVERY_RUN, Parameters
 
 VARYING_COLUMNS = {
@@ -76,7 +76,7 @@ def skill_rows(
         function, count, outputs = skill.function, len(skill.inputs), skill.outputs
         own, remembered = skill.owner in starts, function.state_length(count, outputs)
         row: Row = {
-            "lane": skill_unit(function).place, "index": numbers[skill.name],
+            "lane": unit_of(function, compute).place, "index": numbers[skill.name],
             "input": len(inputs), "inputs": count, "outputs": outputs,
             "weights": int(starts[skill.owner]) if own else places[skill.owner], "own": own,
             "edge": len(edges), "edges": len(skill.edges), "address": addresses.get(skill.name, 0), "state": state,

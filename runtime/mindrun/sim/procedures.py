@@ -78,10 +78,7 @@ class Procedures:
 
 @dataclass(frozen=True, slots=True)
 class Memories:
-    """The procedures of every run that goes on: each has modules of its own, as on a robot that has just started.
-
-    What a procedure remembers is of its run alone, whatever runs beside it, before it or after it.
-    """
+    """The procedures of every run that goes on: each has modules of its own, as on a robot that has just started."""
 
     procedures: Procedures
     functions: dict[tuple[str, int], Callable[..., Any]] = field(default_factory=dict)

@@ -47,10 +47,7 @@ def after(tables: Tables, state: State, jobs: Jobs, interrupt: int) -> None:
 
 @unit
 def conclude(tables: Tables, state: State, jobs: Jobs, interrupt: int) -> None:
-    """Judge a step, record it where there is room, and recall; then end the runs that are over.
-
-    Their lanes write their result and begin the next job.
-    """
+    """Judge a step, record it where there is room, and recall; then end the runs that are over."""
     lanes, clock, world = jobs.lanes[0], jobs.clock[0], state.world
     judge(tables, state, lanes, clock, interrupt)
     record(state, jobs)

@@ -259,8 +259,7 @@ def progress(out, now, body, things, measure, lanes):
     0 where all have vanished. `now` is room for the square of what is left of the distance.
     """
     before = out
-    for lane in range(lanes):
-        before[lane], now[lane] = np.nan, np.nan
+    before[:lanes], now[:lanes] = np.nan, np.nan
     for i in range(measure.thing, measure.thing + measure.things):
         for lane in range(lanes):
             x, y = place_of(things, i, lane)
@@ -286,10 +285,7 @@ def change(tables: Tables, state: State, i: int, lanes: int, clock: int) -> None
     """Compute measure i, the changes of each side's commands over the last ticks, beyond a share: the paper's ΣΔ."""
     commands, judged, measure = state.mind.commands, state.judge, tables.measures[i]
     out, now = judged.measures[i], measure.ring + clock % measure.over
-    for lane in range(lanes):
-        judged.left_changes[now, lane] = 0.0
-        judged.right_changes[now, lane] = 0.0
-        out[lane] = 0.0
+    judged.left_changes[now, :lanes], judged.right_changes[now, :lanes], out[:lanes] = 0.0, 0.0, 0.0
     for k in range(len(tables.actuators)):
         actuator = tables.actuators[k]
         if actuator.kind == codes.PUSH:
@@ -298,8 +294,7 @@ def change(tables: Tables, state: State, i: int, lanes: int, clock: int) -> None
                 changes[lane] += abs(np.float64(commands[k, lane]) - np.float64(judged.last_commands[k, lane]))
     varied = judged.paid  # which has nothing in it yet
     for changes in (judged.left_changes, judged.right_changes):
-        for lane in range(lanes):
-            varied[lane] = 0.0
+        varied[:lanes] = 0.0
         for k in range(measure.ring, measure.ring + measure.over):
             for lane in range(lanes):
                 varied[lane] += changes[k, lane]

@@ -196,7 +196,7 @@ def start(tables, world, lane):
     elif constants.half_x < ENDLESS_UNITS:
         best = 0
         for _ in range(MAX_TRIES):
-            x, y = uniform(random, lane, -room_x, room_x), uniform(random, lane, -room_y, room_y)
+            x, y = anywhere(random, -room_x, room_x, -room_y, room_y, lane)
             fits = 0
             if clear_of_all(tables, world, x, y, radius, lane):
                 fits = 1
@@ -207,6 +207,11 @@ def start(tables, world, lane):
             if fits == 3:
                 break
     body[ANGLE, lane] = constants.facing if constants.is_faced else uniform(random, lane, 0.0, 2 * np.pi)
+
+
+def anywhere(random, left, right, below, above, lane):
+    """A place drawn from a rectangle."""
+    return uniform(random, lane, left, right), uniform(random, lane, below, above)
 
 
 def start_room(half, radius):
@@ -227,11 +232,11 @@ def find(tables, world, low, high, room, extent, but, lane):
     best, best_x, best_y = 0, 0.0, 0.0
     for _ in range(MAX_TRIES):
         if left <= right:
-            x, y = uniform(world.random, lane, left, right), uniform(world.random, lane, below, above)
+            x, y = anywhere(world.random, left, right, below, above, lane)
         elif constants.half_x < ENDLESS_UNITS:
             room_x = max(constants.half_x - extent - 2 * constants.radius, 0.0)
             room_y = max(constants.half_y - extent - 2 * constants.radius, 0.0)
-            x, y = uniform(world.random, lane, -room_x, room_x), uniform(world.random, lane, -room_y, room_y)
+            x, y = anywhere(world.random, -room_x, room_x, -room_y, room_y, lane)
         else:
             sine, cosine = sine_cosine(uniform(world.random, lane, 0.0, 2 * np.pi))
             far = uniform(world.random, lane, low, high)

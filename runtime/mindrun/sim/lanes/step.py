@@ -70,9 +70,7 @@ def step(tables: Tables, state: State, lanes: int) -> None:
 def thrust(tables, world, lanes):
     """Damp the body's velocities, a car's as its axles let it move, and sum force and torque in `push`."""
     body, heading, push, constants, is_aside = world.body, world.heading, world.push, tables.world[0], False
-    push[FORCE, :lanes] = 0.0
-    push[TORQUE, :lanes] = 0.0
-    push[FORCE_ASIDE, :lanes] = 0.0
+    push[:, :lanes] = 0.0
     for i in range(len(tables.actuators)):
         actuator = tables.actuators[i]
         if actuator.kind == PUSH:
