@@ -12,6 +12,7 @@ from mindrun.numbers.arithmetic import box_of
 from mindrun.sim.codes import PERSISTENCE_TICKS, WALL_COUNT, Tables
 from mindrun.sim.lanes.loose import OF_LOOSE
 from mindrun.sim.lanes.nearest_points import LEAST_NORMAL, farthest, nearest_points
+from mindrun.sim.lanes.placement import ENDLESS_UNITS
 from mindrun.sim.lanes.solid import count_of
 from mindrun.sim.lanes.solids import overlap, put_corners, put_held
 from mindrun.sim.state import FIRST_LOOSE, FIXED, HELD, ROBOT, ContactState, WorldState
@@ -156,11 +157,19 @@ def put_fixed(tables, world, contact, number, lane):
 
 def find_close(tables, world, contact, a, lane):
     """Write down the boxes and walls that meet the rectangle around a solid; return how many do."""
-    close, solid, first, count = contact.close[lane], contact.solids[lane, a], FIRST_LOOSE + len(tables.loose), 0
-    for k in range(count_of(world.boxes) + WALL_COUNT):
-        left, low, right, top = sides_of(tables, world, contact.solids[lane], first + k, lane)
-        if left <= solid.right and solid.left <= right and low <= solid.high and solid.low <= top:
-            close[count], count = k, count + 1
+    close, solid = contact.close[lane], contact.solids[lane, a]
+    left, right, low, high = solid.left, solid.right, solid.low, solid.high
+    boxes, half_x, half_y = count_of(world.boxes), tables.world[0].half_x, tables.world[0].half_y
+    count = 0
+    for b in range(boxes):
+        x, y, wide, tall = box_of(world.boxes, b, lane)
+        if x - wide <= right and left <= x + wide and y - tall <= high and low <= y + tall:
+            close[count], count = b, count + 1
+    if half_x < ENDLESS_UNITS and (left <= -half_x or right >= half_x or low <= -half_y or high >= half_y):
+        for wall in range(WALL_COUNT):
+            its_left, its_low, its_right, its_top = wall_of(half_x, half_y, wall)
+            if left <= its_right and its_left <= right and low <= its_top and its_low <= high:
+                close[count], count = boxes + wall, count + 1
     return count
 
 
