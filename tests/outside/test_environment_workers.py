@@ -164,12 +164,13 @@ def until(holds: Callable[[], bool]) -> None:
     raise AssertionError("it never came to that")
 
 
-def workers_of(folder: Path) -> list[str]:
-    """The processes that work in a folder."""
+def workers_of(folder: Path, state: str = "") -> list[str]:
+    """The processes that work in a folder, those in a state of Linux alone where one is given: T of what is stopped."""
     found = []
     for process in Path("/proc").glob("[0-9]*"):
         try:
-            if process.joinpath("cwd").readlink() == folder.resolve():
+            now = process.joinpath("stat").read_text().rpartition(")")[2].split()[0]
+            if state in now and process.joinpath("cwd").readlink() == folder.resolve():
                 found.append(process.joinpath("cmdline").read_text())
         except OSError:
             continue

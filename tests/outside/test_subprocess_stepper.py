@@ -5,7 +5,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -188,12 +187,11 @@ def test_of_many_environments_that_one_is_told_and_slow_ones_have_their_time_eac
 
 def test_a_process_that_hangs_ends_with_the_program_that_asked(tmp_path: Path) -> None:
     """Killed, too, when it cannot end anything any more."""
-    rules(tmp_path, deadly("Hold", "step"))
+    rules(tmp_path, deadly("Stop", "step"))
     words = [sys.executable, "-c", "from mindlang.cli import main; main()", "run", "go.mind", "--seed", "5"]
     path = os.pathsep.join([str(ROOT), str(ROOT / "runtime")])
     asking = subprocess.Popen(words, cwd=tmp_path, env={**os.environ, "PYTHONPATH": path}, stderr=subprocess.DEVNULL)
-    until(lambda: any("mindrun.sim.outside" in each for each in workers_of(tmp_path)))
-    time.sleep(1)  # mostly it hangs by then; before that it ends all the same
+    until(lambda: any("mindrun.sim.outside" in each for each in workers_of(tmp_path, "T")))
     asking.kill()
     asking.wait()
     until(lambda: workers_of(tmp_path) == [])
