@@ -33,7 +33,7 @@ from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.setup import RunSetup, untaught_skills
 
 Floats = NDArray[np.float32]
-Mask = NDArray[np.bool_]
+Bools = NDArray[np.bool_]
 SEED_COUNT = 1 << 64  # layouts
 REAL_NUMBERS = "biuf"  # kinds of arrays: truth values, whole numbers, others
 MAX_DRAWN_SEED = 1 << 63  # so many that no two episodes are drawn the same
@@ -60,7 +60,7 @@ class Episodes:
     def __post_init__(self) -> None:
         self.seeds, self._scores = np.zeros(self.lanes.count, np.uint64), np.zeros(self.lanes.count)
 
-    def begin(self, lanes: Mask, seeds: ArrayLike) -> None:
+    def begin(self, lanes: Bools, seeds: ArrayLike) -> None:
         """Begin the runs of these layouts in the marked lanes; to be followed by `sense`."""
         self.seeds[lanes] = seeds
         self.lanes.begin(lanes, seeds)
@@ -71,11 +71,11 @@ class Episodes:
         self.lanes.sense()
         return self._seen(self.lanes.state, self.lanes.count)
 
-    def last_seen(self, lanes: Mask) -> Floats:
+    def last_seen(self, lanes: Bools) -> Floats:
         """The last observations in the marked lanes, before another run begins there; `sense` is not disturbed."""
         return self._seen(self.lanes.sensed_aside(lanes), int(lanes.sum()))
 
-    def step(self, actions: ArrayLike) -> tuple[NDArray[np.float64], Mask, Mask]:
+    def step(self, actions: ArrayLike) -> tuple[NDArray[np.float64], Bools, Bools]:
         """Step all lanes by actions [lanes, actions]: rewards, terminations and truncations [lanes].
 
         An action that is not finite is not sent."""

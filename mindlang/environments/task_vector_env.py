@@ -14,12 +14,12 @@ from gymnasium.vector.utils import batch_space
 from mindrun.errors import MindError
 from numpy.typing import NDArray
 
-from mindlang.environments.episodes import Floats, Mask, check_render_mode, episodes_of, image_of, to_layouts, unit_box
+from mindlang.environments.episodes import Floats, Bools, check_render_mode, episodes_of, image_of, to_layouts, unit_box
 from mindlang.pictures.canvas import Image
 from mindlang.run.setup import layouts as children
 
 Seeds = SupportsIndex | Sequence[SupportsIndex | None] | NDArray[np.integer] | None
-Step = tuple[Floats, NDArray[np.float64], Mask, Mask, dict[str, Any]]
+Step = tuple[Floats, NDArray[np.float64], Bools, Bools, dict[str, Any]]
 
 
 class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
@@ -111,7 +111,7 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
         """The outcome of a lane's episode, with its layout as an int, which may be too large for numpy's."""
         return self._episodes.outcome(lane) | {"layout": self._episodes.seeds[lane]}
 
-    def _begun(self, lanes: Mask, infos: dict[str, Any]) -> dict[str, Any]:
+    def _begun(self, lanes: Bools, infos: dict[str, Any]) -> dict[str, Any]:
         for lane in np.flatnonzero(lanes).tolist():
             infos = self._add_info(infos, {"layout": self._episodes.seeds[lane]}, lane)
         return infos

@@ -50,14 +50,13 @@ WAYS: dict[str, Callable[[], object]] = {
     "Fault": segmentation_fault,
     "Leave": sys.exit,
     "Print": print_twice,
-    "Move": partial(os.chdir, "/"),
     "Signals": take_signals,
     "Thread": leave_thread,
     "Read": partial(os.read, 0, 1),
     "Hold": hold_interpreter,
     "Stop": lambda: os.kill(os.getpid(), signal.SIGSTOP),
     "Sleep": partial(time.sleep, 1000),
-    "Doze": partial(time.sleep, 0.5),
+    "Doze": partial(time.sleep, 0.3),
 }
 PLACES = "make", "reset", "step", "render", "close"
 

@@ -66,7 +66,7 @@ def declared(path: Path) -> list[tuple[str, str]]:
     return [(noun, name) for noun, name in found if noun in NEW]
 
 
-@settings(max_examples=cases(15), deadline=None)
+@settings(max_examples=cases(15) // 2, deadline=None)
 @given(number=st.integers(0, 100_000), seed=st.integers(0, 2**64 - 1), choice=st.integers(0, 1000))
 def test_names_and_freezing_change_no_bit(number: int, seed: int, choice: int) -> None:
     with TemporaryDirectory() as folder:
@@ -85,7 +85,7 @@ def test_names_and_freezing_change_no_bit(number: int, seed: int, choice: int) -
         assert statuses(path) == states
 
 
-@settings(max_examples=cases(15), deadline=None)
+@settings(max_examples=cases(15) // 2, deadline=None)
 @given(number=st.integers(0, 100_000), seed=st.integers(0, 2**64 - 1))
 def test_what_is_read_more_changes_no_bit_where_its_weights_are_kept(number: int, seed: int) -> None:
     with TemporaryDirectory() as folder:
@@ -97,7 +97,7 @@ def test_what_is_read_more_changes_no_bit_where_its_weights_are_kept(number: int
     assert after == before
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=cases(10) // 2, deadline=None)
 @given(number=st.integers(0, 100_000), seed=st.integers(0, 2**64 - 1))
 def test_what_stands_in_a_file_of_its_own_is_the_same(number: int, seed: int) -> None:
     with TemporaryDirectory() as folder:
@@ -111,7 +111,7 @@ def test_what_stands_in_a_file_of_its_own_is_the_same(number: int, seed: int) ->
 def test_the_minds_that_are_drawn_learn_and_act() -> None:
     """So that the runs that are compared are not all the same."""
     runs = []
-    for number in range(5):
+    for number in range(4):
         with TemporaryDirectory() as folder:
             runs.append([tick[0] for tick in run_of(written(Path(folder), number), 3)])
     assert sum(len({*run}) > 1 for run in runs) > 1

@@ -156,12 +156,12 @@ def test_a_run_does_not_go_on_in_another_text_of_its_module(tmp_path: Path) -> N
         refuse_changed(subject, before)
 
 
-@pytest.mark.parametrize("command", ["run", "why", "bench"])
+@pytest.mark.parametrize("command", ["run", "bench"])
 def test_what_code_in_c_prints_is_not_in_the_document(tmp_path: Path, command: str) -> None:
     text = minds.text(scene="loud_here:loud_here/Mine-v0").replace("is mlp hidden 1", "is rule")
     (tmp_path / "go.mind").write_text(text.replace("drives push", "drives push at place"))
     beside(tmp_path, "loud_here", MODULE.replace("worlds import Line", "hostile_worlds import Loud as Line"))
-    more = ["--tick", "2", "push"] if command == "why" else ["--runs", "2"] if command == "bench" else []
+    more = ["--runs", "2"] if command == "bench" else []
     done = subprocess.run(
         [
             sys.executable,

@@ -76,7 +76,7 @@ def action_of(environment, graph, commands):
 
 
 @pytest.mark.parametrize("source", MINDS.values(), ids=MINDS)
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=5, deadline=None)
 @given(draw=st.integers(0, 1000), seed=st.integers(0, 2**64 - 1))
 def test_it_is_what_the_engine_does(source: str, draw: int, seed: int) -> None:
     rollout = minds.rollout_of(source)

@@ -5,7 +5,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -15,13 +14,14 @@ pytest.importorskip("gymnasium")
 import numpy as np
 from mindrun.errors import MindError
 from mindrun.graph.policy import Policy
-from mindrun.sim.outside import repeating
+from mindrun.sim.outside import repeating, subprocess_stepper
 from mindrun.sim.outside.rollout import EnvironmentRollout
-from mindrun.sim.outside.stepper import LocalStepper
+from mindrun.sim.outside.stepper import EnvironmentRun, LocalStepper
 from mindrun.sim.outside.subprocess_stepper import VARIABLE, SubprocessStepper, is_own, stepper_for
 from mindrun.sim.trace import take_over, trace
 
 import mindlang
+from tests.calling import caller
 from tests.outside import minds, worlds
 from tests.outside.test_commands import RULES
 from tests.outside.test_environment_workers import LESSON, ROOT, mindc, until, workers_of
@@ -65,11 +65,10 @@ def test_a_program_goes_on_with_other_environments_and_with_the_same() -> None:
 
 
 def test_what_it_does_to_its_process_it_does_to_no_other(capfd: pytest.CaptureFixture[str]) -> None:
-    folder, handlers = Path.cwd(), [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
+    handlers = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
     undisturbed = scored("Exit", "render")
-    for way in ("Print", "Move", "Signals", "Thread", "Read"):
+    for way in ("Print", "Signals", "Read"):
         np.testing.assert_array_equal(scored(way, "step"), undisturbed)
-    assert Path.cwd() == folder
     assert [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)] == handlers
     said = capfd.readouterr()
     assert said.out == ""
@@ -123,80 +122,86 @@ HANGS = [
 ]
 
 
-def made_and_closed(stepper: SubprocessStepper) -> None:
-    """A run of three steps, and an image of it."""
-    runs = stepper.begin([("", 0)], [5])
-    for _ in range(3):
+LIMIT_SECONDS = 0.5  # of what never comes back
+
+
+def made_and_closed(stepper: SubprocessStepper, place: str) -> None:
+    """A run of three steps, and an image of it; from a place on nobody waits for long."""
+    runs: list[EnvironmentRun] = []
+
+    def begin() -> None:
+        runs.extend(stepper.begin([("", 0)], [5]))
+
+    def step() -> None:
         stepper.step(runs, np.zeros((1, 1)))
-    stepper.image(runs[0])
-    stepper.close(runs)
+
+    calls = [("reset", begin), ("", step), ("", step), ("step", step)]
+    calls += [("render", lambda: stepper.image(runs[0])), ("close", lambda: stepper.close(runs))]
+    for name, call in calls:
+        if name == place:
+            stepper._process.step_seconds = LIMIT_SECONDS
+        call()
 
 
-def test_one_that_does_not_come_back_from_its_constructor(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv(VARIABLE, "2")
+@pytest.fixture
+def looks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """So often does it look whether an environment comes any further."""
+    monkeypatch.setattr(subprocess_stepper, "LOOK_SECONDS", 0.05)
+
+
+def test_one_that_does_not_come_back_from_its_constructor(looks: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(VARIABLE, "1")
     with pytest.raises(
-        MindError, match="deadly/Hold-make-v0 does not come back from being asked for its spaces, in 2 "
+        MindError, match="deadly/Hold-make-v0 does not come back from being asked for its spaces, in 1 "
     ):
         minds.rollout_of(minds.text(scene=deadly("Hold", "make")))
 
 
 @pytest.mark.parametrize(("way", "place", "where"), HANGS)
 def test_an_environment_that_does_not_come_back_is_killed_and_told(
-    monkeypatch: pytest.MonkeyPatch, way: str, place: str, where: str
+    looks: None, way: str, place: str, where: str
 ) -> None:
     """Code in C that holds the interpreter, a process that has stopped, a sleep: the watch is not in that process."""
-    monkeypatch.setenv(VARIABLE, "2")
     stepper = SubprocessStepper(deadly(way, place))
     with pytest.raises(MindError) as found:
-        made_and_closed(stepper)
-    assert str(found.value) == f"the environment {deadly(way, place)} does not come back from {where}, in 2 seconds"
+        made_and_closed(stepper, place)
+    assert str(found.value) == f"the environment {deadly(way, place)} does not come back from {where}, in 0.5 seconds"
     assert not stepper._process.has_begun
     assert VARIABLE in found.value.hint
 
 
-def test_of_many_environments_that_one_is_told_and_slow_ones_have_their_time_each(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setenv(VARIABLE, "3")
+def test_of_many_environments_that_one_is_told_and_slow_ones_have_their_time_each(looks: None) -> None:
     stepper = SubprocessStepper(deadly("Doze", "step"))
-    runs = stepper.begin([("", 0)], range(10))
+    runs = stepper.begin([("", 0)], range(8))
+    stepper._process.step_seconds = 2.0  # half a second longer than all of them together need
     for _ in range(3):
-        stepper.step(runs, np.zeros((10, 1)))
+        stepper.step(runs, np.zeros((8, 1)))
     stepper = SubprocessStepper(deadly("Stop", "step"))
     runs = stepper.begin([("", 0)], [1, 2, 3])
     stepper.step(runs[1:2], np.zeros((1, 1)))
     stepper.step(runs, np.zeros((3, 1)))
-    with pytest.raises(MindError, match="from step 3 of the run of seed 2, in 3 seconds"):
+    stepper._process.step_seconds = LIMIT_SECONDS
+    with pytest.raises(MindError, match=r"from step 3 of the run of seed 2, in 0\.5 seconds"):
         stepper.step(runs, np.zeros((3, 1)))
 
 
-@pytest.mark.parametrize("way", ["Hold", "Stop"])
-def test_a_process_that_hangs_ends_with_the_program_that_asked(tmp_path: Path, way: str) -> None:
+def test_a_process_that_hangs_ends_with_the_program_that_asked(tmp_path: Path) -> None:
     """Killed, too, when it cannot end anything any more."""
-    rules(tmp_path, deadly(way, "step"))
+    rules(tmp_path, deadly("Stop", "step"))
     words = [sys.executable, "-c", "from mindlang.cli import main; main()", "run", "go.mind", "--seed", "5"]
     path = os.pathsep.join([str(ROOT), str(ROOT / "runtime")])
     asking = subprocess.Popen(words, cwd=tmp_path, env={**os.environ, "PYTHONPATH": path}, stderr=subprocess.DEVNULL)
-    until(lambda: any("mindrun.sim.outside" in each for each in workers_of(tmp_path)))
-    time.sleep(1)  # mostly it hangs by then; before that it ends all the same
+    until(lambda: any("mindrun.sim.outside" in each for each in workers_of(tmp_path, "T")))
     asking.kill()
     asking.wait()
     until(lambda: workers_of(tmp_path) == [])
 
 
-@pytest.mark.parametrize(
-    "words", [("run", "go.mind", "--seed", "5"), ("train", "go.mind", "--seed", "1", "--workers", "2")]
-)
-def test_a_command_ends_where_an_environment_hangs(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...]
-) -> None:
+def test_a_command_ends_where_an_environment_hangs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(VARIABLE, "3")
     world = deadly("Hold", "step")
-    if words[0] == "run":
-        rules(tmp_path, world)
-    else:
-        (tmp_path / "go.mind").write_text(minds.text(scene=world) + LESSON)
-    done = mindc(tmp_path, *words)
+    (tmp_path / "go.mind").write_text(minds.text(scene=world) + LESSON)
+    done = mindc(tmp_path, "train", "go.mind", "--seed", "1", "--workers", "2")
     said = " ".join(done.stderr.split())
     assert (done.returncode, done.stdout) == (1, "")
     assert f"the environment {world} does not come back from step 3 of the run of seed" in said
@@ -219,16 +224,9 @@ def rules(folder: Path, world: str, lesson: str = "") -> Path:
     return path
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        ("view", "go.mind", "--seed", "5", "--export", "run.html"),
-        ("bench", "go.mind", "--runs", "2", "--workers", "1"),
-    ],
-)
-def test_commands_say_so_and_end_as_for_any_other_fault(tmp_path: Path, words: tuple[str, ...]) -> None:
+def test_a_command_says_so_and_ends_as_for_any_other_fault(tmp_path: Path) -> None:
     rules(tmp_path, deadly("Fault", "step"))
-    done = mindc(tmp_path, *words)
+    done = mindc(tmp_path, "bench", "go.mind", "--runs", "2", "--workers", "1")
     said = " ".join(done.stderr.split())
     assert (done.returncode, done.stdout) == (1, "")
     assert "step 3 of the run of seed" in said
@@ -238,20 +236,25 @@ def test_commands_say_so_and_end_as_for_any_other_fault(tmp_path: Path, words: t
     assert workers_of(tmp_path) == []
 
 
-def test_an_image_that_ends_the_process_is_a_sentence(tmp_path: Path) -> None:
-    rules(tmp_path, deadly("Exit", "render"))
-    done = mindc(tmp_path, "run", "go.mind", "--seed", "5", "--picture", "run.png")
-    assert done.returncode == 2
-    assert f"the environment {deadly('Exit', 'render')} cannot be drawn" in done.stderr
-    assert "of the run of seed 5, and the fault is the environment's: exit code 3." in done.stderr
+def test_an_image_that_ends_the_process_is_a_sentence(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mind = rules(tmp_path, deadly("Exit", "render"))
+    said = caller(capsys, monkeypatch)("run", mind, "--seed", 5, "--picture", tmp_path / "run.png")
+    assert said.code == 2
+    assert f"the environment {deadly('Exit', 'render')} cannot be drawn" in said.err
+    assert "of the run of seed 5, and the fault is the environment's: exit code 3." in said.err
     assert not (tmp_path / "run.png").exists()
 
 
-def test_a_training_says_at_which_step_of_which_run_and_can_go_on(tmp_path: Path) -> None:
+def test_a_training_says_at_which_step_of_which_run_and_can_go_on(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "go.mind").write_text(minds.text(scene=deadly("Exit", "step")) + LESSON)
-    done = mindc(tmp_path, "train", "go.mind", "--seed", "1", "--workers", "1")
-    said = " ".join(done.stderr.split())
-    assert done.returncode == 1
+    done = caller(capsys, monkeypatch)("train", "go.mind", "--seed", 1, "--workers", 1)
+    said = " ".join(done.err.split())
+    assert done.code == 1
     assert f"the environment {deadly('Exit', 'step')} has ended its process" in said
     assert "It was in step 3 of the run of seed" in said
     assert "exit code 3" in said

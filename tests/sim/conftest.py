@@ -13,9 +13,9 @@ Write = Callable[..., ModuleType]
 NEEDED = """
 from dataclasses import dataclass
 from types import ModuleType
-from typing import Annotated, Any
+from typing import Any
 import numpy as np
-from mindrun.sim.arrays import Block, Room
+from mindrun.sim.arrays import Block, array
 from mindrun.sim.units import AddressOf, Form, Pointer, unit, unit_where
 """
 

@@ -67,7 +67,7 @@ named.SIZE, named.KIND = np.float32(0.5), np.float64
 
 @dataclass(frozen=True)
 class Part(Block):
-    numbers: Annotated[Any, Room(np.dtype(np.int64), 1, lambda counts, lanes: (lanes,))]
+    numbers: Any = array(np.int64, 1, lambda counts, lanes: (lanes,))
 
 def scaled(x):
     """A number of times."""
@@ -91,8 +91,8 @@ FOUND_ELSEWHERE = [  # what is changed, and how, where the machine code of `whol
     ("np.float32(0.5)", "np.float32(0.25)"),
     ("np.float32(0.5)", "np.float64(0.5)"),
     ("np.float64\n", "np.float32\n"),
-    ("np.dtype(np.int64)", "np.dtype(np.int32)"),
-    ("    numbers", "    first: Annotated[Any, Room(np.dtype(bool), 2, None)]\n    numbers"),
+    ("array(np.int64", "array(np.int32"),
+    ("    numbers", "    first: Any = array(bool, 2, None)\n    numbers"),
     ("def other(x: int)", "def other(x: float)"),
     ("other(part.numbers[0])", "scaled(part.numbers[0])"),
 ]

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 from mindrun.sim.lanes.meeting import meet
-from mindrun.sim.lanes.shapes import put_corners, put_shape, turn
+from mindrun.sim.lanes.solids import put_corners, put_shape, turn
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import FIRST_LOOSE, FIXED, ContactState
 

@@ -39,7 +39,7 @@ task World in arena size 24
   varies speed of foe 2 to 5
   varies thrust of fox 20 to 90
   varies density of dog 0.2 to 3
-  lasts 1200 ticks
+  lasts LASTS ticks
   rewards progress toward foe per tick
   counts collision
   counts reach of foe
@@ -51,7 +51,11 @@ task World in arena size 24
 def test_forces_equal_plain_pymunk(seed: int) -> None:
     """Between walls, obstacles, the robot and each other, which all of them push."""
     outcome = ("", "delivered stays", "reached vanishes", "reached moves")[seed % 4]
-    graph = compile_text(MIND.replace("OUTCOME", outcome).replace("TICKS", ("60", "20", "10")[seed % 3]))
+    graph = compile_text(
+        MIND.replace("OUTCOME", outcome)
+        .replace("TICKS", ("60", "20", "10")[seed % 3])
+        .replace("LASTS", "400" if seed < 4 else "1200")
+    )
     rollout = Rollout(Policy(graph, {}), "World", "Go")
     happened = follow(rollout, Engine(Policy(graph, {})), seed)
     assert happened["Reach"] > 0

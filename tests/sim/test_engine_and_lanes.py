@@ -45,11 +45,11 @@ def _rows(rollout: Rollout, skill: np.void) -> list[int]:
     return [int(row) for row in rollout.tables.inputs[first : first + int(skill["inputs"])]]
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_collect_in_its_world(seed: int) -> None:
     graph = load(COLLECT).graph
     assert graph
-    follow(graph, some_weights(graph, seed + 3), "Collect", "Collect", seed, 3000)
+    follow(graph, some_weights(graph, seed + 3), "Collect", "Collect", seed, 2000)
 
 
 WORLD = Task(

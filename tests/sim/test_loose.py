@@ -66,9 +66,9 @@ def world(ticks: int, outcome: str = "") -> Rollout:
 @pytest.mark.parametrize("seed", [*range(3), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(3, 12))])
 def test_pushes_equal_plain_pymunk(seed: int) -> None:
     """A robot that drives about between walls, obstacles and loose things, which it pushes against all of them."""
-    rollout = world(1_500, ("", "delivered stays", "delivered vanishes")[seed % 3])
+    rollout = world(500 if seed < 3 else 1_500, ("", "delivered stays", "delivered vanishes")[seed % 3])
     happened = follow(rollout, Engine(Policy(rollout.graph, {})), seed)
-    assert happened["Collision"] > 2
+    assert happened["Collision"] > 0
 
 
 @pytest.mark.parametrize(("outcome", "seed"), [("moves", 0), ("vanishes", 1)])
@@ -162,12 +162,12 @@ skill Go is rule
 task World in arena size 30
   contains rock is obstacle grid 4 size 0.3 to 0.6 jitter 1.5
   contains coin is item size 2.5 count 9
-  lasts 3000 ticks
+  lasts 1000 ticks
   rewards progress toward coin per tick
   counts collision
 """
     rollout = Rollout(Policy(compile_text(text), {}), "World", "Go")
-    assert follow(rollout, Engine(Policy(rollout.graph, {})), 1)["Collision"] > 2
+    assert follow(rollout, Engine(Policy(rollout.graph, {})), 1)["Collision"] > 0
 
 
 def test_a_robot_begins_beside_a_fixed_box_along_either_axis() -> None:

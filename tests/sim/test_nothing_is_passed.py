@@ -67,8 +67,8 @@ def crosses(boxes: Place, begin: Place, end: Place) -> bool:
 
 
 def blocks(count: int, size: int) -> list[object]:
-    """So many blocks of so many seeds each; all but the first four are of the slow tests."""
-    return [pytest.param(i * size, marks=[pytest.mark.slow] if i > 3 else []) for i in range(count)]
+    """So many blocks of so many seeds each; all but the first two are of the slow tests."""
+    return [pytest.param(i * size, marks=[pytest.mark.slow] if i > 1 else []) for i in range(count)]
 
 
 @pytest.mark.parametrize("first", blocks(250, 40))
@@ -81,7 +81,7 @@ def test_nothing_is_passed(first: int) -> None:
     assert min(seen.values()) > 20
 
 
-@pytest.mark.parametrize("seed", range(25))
+@pytest.mark.parametrize("seed", range(16))
 def test_swift_worlds_are_what_plain_pymunk_says(seed: int) -> None:
     """In as many strides, bit for bit."""
     graph = swift_world(Random(seed), 40)

@@ -35,15 +35,15 @@ def outer(x: int) -> int:
 """
 PARTS = """
 def room(dtype, dimensions):
-    return Room(np.dtype(dtype), dimensions, lambda counts, lanes: (lanes,) * dimensions)
+    return array(dtype, dimensions, lambda counts, lanes: (lanes,) * dimensions)
 
 @dataclass(frozen=True)
 class Inside(Block):
-    numbers: Annotated[Any, room(np.float64, 1)]
+    numbers: Any = room(np.float64, 1)
 
 @dataclass(frozen=True)
 class Part(Block):
-    table: Annotated[Any, room(np.int64, 2)]
+    table: Any = room(np.int64, 2)
     inside: Inside
 
 @unit
@@ -175,7 +175,7 @@ def test_of_several_threads_all_hand_over_the_same_words(write: Write) -> None:
 
 def test_kinds_of_blocks_may_have_one_name(place: Path, write: Write) -> None:
     for fields in ("table", "first", "last"):
-        more = f"    {fields}: Annotated[Any, room(bool, 1)]\n    inside: Inside\n"
+        more = f"    {fields}: Any = room(bool, 1)\n    inside: Inside\n"
         lanes = write(PARTS.replace("    inside: Inside\n", "    inside: Inside\n" if fields == "table" else more))
         extra = {} if fields == "table" else {fields: np.zeros(1, bool)}
         part = lanes.Part(table=np.array([[1, 2]]), inside=lanes.Inside(np.array([4.0])), **extra)

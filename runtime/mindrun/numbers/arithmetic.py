@@ -3,6 +3,7 @@
 Plain functions, which `mindrun.sim` compiles: the kinds of sensors say in their terms what they read.
 """
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ def _singles(*values: float) -> tuple[float, ...]:
 
 
 F = np.float32
+Singles = NDArray[F]
 X, Y, ANGLE, SPEED_X, SPEED_Y, SPIN = range(6)  # rows of a body; of all else that has a place the first two
 COSINE, SINE = range(2)  # rows of a heading
 THING_ROWS, SIZE, DISTANCE = 4, 2, 3  # of a thing: how many, its size, how far the robot was as the tick began
@@ -42,11 +44,7 @@ NUMERATOR = _singles(
 DENOMINATOR = _singles(4.89352518554385e-03, 2.26843463243900e-03, 1.18534705686654e-04, 1.19825839466702e-06)
 (LIMIT,) = _singles(7.90531110763549805)  # from here on tanh is 1 in float32
 _LOW, _HIGH = F(-LIMIT), F(LIMIT)
-_TOP, *_REST = (F(a) for a in reversed(NUMERATOR))
-_BOTTOM, *_BELOW = (F(b) for b in reversed(DENOMINATOR))
-A1, A3, A5, A7, A9, A11, A13 = (F(a) for a in NUMERATOR)
-B0, B2, B4, B6 = (F(b) for b in DENOMINATOR)
-SIGMOID_LIMIT = F(LIMIT)
+_ABOVE, _BELOW = [F(a) for a in NUMERATOR], [F(b) for b in DENOMINATOR]
 MAX_FLOAT32 = np.finfo(F).max
 
 
@@ -118,6 +116,31 @@ def bearing(x: Any, y: Any) -> Any:
     angle = PI32 - angle if x < ZERO else angle
     angle = -angle if y < ZERO else angle
     return HALF - angle * PER_TURN
+
+
+def length(x: Any, y: Any) -> Any:
+    """The length of a way along both axes."""
+    return np.sqrt(x * x + y * y)
+
+
+def middle_of(body: Any, p: Any) -> Any:
+    """The x and y of the robot of lane p."""
+    return body[X, p], body[Y, p]
+
+
+def pose_of(body: Any, p: Any) -> Any:
+    """The x, y and angle of the robot of lane p."""
+    return body[X, p], body[Y, p], body[ANGLE, p]
+
+
+def motion_of(body: Any, p: Any) -> Any:
+    """The velocity along x and y, and the spin, of the robot of lane p."""
+    return body[SPEED_X, p], body[SPEED_Y, p], body[SPIN, p]
+
+
+def next_middle(body: Any, seconds: Any, p: Any) -> Any:
+    """The x and y of the robot of lane p after some seconds, if it touches nothing."""
+    return body[X, p] + body[SPEED_X, p] * seconds, body[Y, p] + body[SPEED_Y, p] * seconds
 
 
 def place_of(things: Any, i: Any, p: Any) -> Any:
@@ -212,7 +235,8 @@ def find_nearest_point(s: Any, sensor: Any, n: Any) -> None:
         return
     s.nearest_of[0] = asked
     for p in range(n):
-        x, y, least, to_x, to_y = s.body[X, p], s.body[Y, p], OPENED_SQUARE, np.nan, np.nan
+        x, y = middle_of(s.body, p)
+        least, to_x, to_y = OPENED_SQUARE, np.nan, np.nan
         for b in range(sensor.box, sensor.box + sensor.boxes):
             its_x, its_y, wide, tall = box_of(s.boxes, b, p)
             low, high = its_x - wide, its_x + wide
@@ -224,8 +248,7 @@ def find_nearest_point(s: Any, sensor: Any, n: Any) -> None:
             closer = square < least
             to_x, to_y = near_x if closer else to_x, near_y if closer else to_y
             least = square if closer else least
-        dx, dy = to_x - x, to_y - y
-        found[X, p], found[Y, p], found[SIZE, p], found[DISTANCE, p] = to_x, to_y, 0.0, np.sqrt(dx * dx + dy * dy)
+        found[X, p], found[Y, p], found[SIZE, p], found[DISTANCE, p] = to_x, to_y, 0.0, length(to_x - x, to_y - y)
 
 
 def uniform(random: Any, lane: Any, low: Any, high: Any) -> Any:
@@ -277,25 +300,21 @@ def nearer(enter: Any, leave: Any, nearest: Any) -> Any:
     return np.where((enter >= ZERO) & (enter <= leave) & (enter < nearest), enter, nearest)
 
 
-def sigmoid(values: NDArray[np.float32]) -> NDArray[np.float32]:
+def sigmoid(values: Singles) -> Singles:
     """The sigmoid of each value, float32 in and out; NaN gives what −∞ gives."""
-    x: NDArray[np.float32] = np.fmin(np.fmax(values * HALF, _LOW), _HIGH)
+    x: Singles = np.fmin(np.fmax(values * HALF, _LOW), _HIGH)
     y = x * x
-    p: NDArray[np.float32] = y * _TOP
-    q: NDArray[np.float32] = y * _BOTTOM
-    for a in _REST[:-1]:
-        p += a
-        p *= y
-    for b in _BELOW[:-1]:
-        q += b
-        q *= y
-    p += _REST[-1]
-    q += _BELOW[-1]
-    p *= x
-    p /= q
-    p *= HALF
-    p += HALF
-    return p
+    return _polynomial(y, _ABOVE) * x / _polynomial(y, _BELOW) * HALF + HALF
+
+
+def _polynomial(x: Singles, coefficients: Sequence[np.float32]) -> Singles:
+    """The value of a polynomial, of the coefficients of its powers from the lowest on."""
+    value: Singles = x * coefficients[-1]
+    for coefficient in coefficients[-2:0:-1]:
+        value += coefficient
+        value *= x
+    value += coefficients[0]
+    return value
 
 
 def sigmoids(*values: Any) -> Any:

@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 
 from mindrun.numbers.expression import Program, fold
 
-Singles = NDArray[np.float32]
+Array = NDArray[Any]
 Doubles = NDArray[np.float64]
+Singles = NDArray[np.float32]
+Integers = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 Readings = Singles
 Reader = Callable[[int, Readings, Readings | None], Readings | np.float32]  # the tick's number, readings now and before

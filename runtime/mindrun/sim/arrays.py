@@ -1,29 +1,32 @@
 """Named arrays that compiled code sees through one pointer: to a block of words, an address and a shape for each."""
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from functools import cache
 from math import prod
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+
+from mindrun.numbers.arithmetic import LANES
+from mindrun.numbers.arrays import Array
 
 WORD_BYTES = 8
 LINE_BYTES = 64  # of a cache
 ADDRESS = "address and words"  # where a block keeps them
-Count = int | str  # of rows or columns: a number, or what they are of, by its name
+Shape = Callable[[Mapping[Any, int], int], tuple[int, ...]]  # of counts by name, and the number of lanes
+Count = Any  # of rows or columns: a number, or what they are of, by its name
 
 
 @dataclass(frozen=True, slots=True)
 class Room:
-    """What an array holds, how many dimensions it has, and its shape: of counts by name, and the number of lanes."""
+    """What an array holds, how many dimensions it has, and its shape."""
 
     dtype: np.dtype[Any]
     dimensions: int
-    shape: Callable[[Mapping[str, int], int], tuple[int, ...]]
+    shape: Shape
 
-    def empty(self, counts: Mapping[str, int], lanes: int) -> NDArray[Any]:
+    def empty(self, counts: Mapping[str, int], lanes: int) -> Array:
         """Zeros for so many lanes, from the beginning of a cache line on: no vector of a row lies in two."""
         shape = self.shape(counts, lanes)
         size = prod(shape) * self.dtype.itemsize
@@ -42,11 +45,46 @@ class Room:
         return 1 + self.dimensions
 
 
+def array(kind: Any, dimensions: int, shape: Shape) -> Any:
+    """The field of a block that is an array."""
+    return field(metadata={Room: Room(np.dtype(kind), dimensions, shape)})
+
+
+def rows(count: Count, times: int = 1, kind: Any = np.float64) -> Any:
+    """An array [row, lane] of at least one row, in whole vectors of lanes: networks compute sixteen at a time."""
+    return array(kind, 2, lambda n, lanes: (max(1, times * n.get(count, count)), whole_vectors(lanes)))
+
+
+def columns(count: Count, times: int = 1, kind: Any = np.float64) -> Any:
+    """An array [lane, column]."""
+    return array(kind, 2, lambda n, lanes: (lanes, times * n.get(count, count)))
+
+
+def each(kind: Any = np.int64) -> Any:
+    """An array [lane]."""
+    return array(kind, 1, lambda n, lanes: (lanes,))
+
+
+def shape(*counts: Count, kind: Any = np.int64) -> Any:
+    """An array that no lane has for itself."""
+    return array(kind, len(counts), lambda n, lanes: tuple(n.get(count, count) for count in counts))
+
+
+def whole_vectors(lanes: int) -> int:
+    """A number of lanes, rounded up to whole vectors."""
+    return -(-lanes // LANES) * LANES
+
+
+def table(dtype: Any, dimensions: int = 1) -> Any:
+    """An array whose shape follows from the mind and its task."""
+    return shape(*[0] * dimensions, kind=dtype)
+
+
 @dataclass(frozen=True)
 class Block:
     """Arrays, and blocks of such, by name.
 
-    A kind of block is a frozen dataclass whose fields are `Annotated[Array, Room]` or other kinds of blocks. No array
+    A kind of block is a frozen dataclass whose fields are each an `array`, or other kinds of blocks. No array
     of one may be exchanged: `dataclasses.replace` makes another.
     """
 
@@ -56,9 +94,9 @@ class Block:
         """The word at which each field begins, and what it is."""
         found: dict[str, tuple[int, Room | type[Block]]] = {}
         place = 0
-        for field in fields(cls):
-            kind: Any = field.type if isinstance(field.type, type) else get_args(field.type)[1]
-            found[field.name] = place, kind
+        for each in fields(cls):
+            kind: Any = each.metadata.get(Room, each.type)
+            found[each.name] = place, kind
             place += kind.words if isinstance(kind, Room) else kind.length()
         return found
 
@@ -80,7 +118,7 @@ class Block:
         return int(found[0])
 
     def __getstate__(self) -> dict[str, Any]:
-        return {field.name: getattr(self, field.name) for field in fields(self)}  # a copy has words of its own
+        return {each.name: getattr(self, each.name) for each in fields(self)}  # a copy has words of its own
 
     def _words(self) -> Iterator[int]:
         for name, (_, kind) in self.layout().items():

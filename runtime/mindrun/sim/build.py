@@ -1,10 +1,8 @@
 """A graph, a task and a master as tables."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Graph, Sensor, Task
@@ -13,22 +11,21 @@ from mindrun.graph.scopes import influence_scopes
 from mindrun.graph.weights import genes, reachable
 from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.arithmetic import BOX_COLUMNS
+from mindrun.numbers.arrays import Array, Singles
 from mindrun.numbers.expression import placed
 from mindrun.sim import task_rows
-from mindrun.sim.codes import CODE, SENSOR, Row, Tables, records
-from mindrun.sim.kind_lanes import sensor_unit
+from mindrun.sim.codes import CODE, SENSOR, Row, Tables, records, span
+from mindrun.sim.kind_lanes import read, unit_of
 from mindrun.sim.mind_rows import Programs, actuator_rows, memory_rows, skill_rows
 from mindrun.sim.parameter_rows import Parameters
 from mindrun.sim.task_rows import NOWHERE, boxes_by_name, rows_by_name
 
-Array = NDArray[Any]
-Floats = NDArray[np.float32]
 Sizes = Mapping[str, int]  # the room that a lane needs, by what it is for
 
 
 def build(
     graph: Graph,
-    weights: Mapping[str, Floats],
+    weights: Mapping[str, Singles],
     task: Task,
     master: str,
     learners: Sequence[str],
@@ -75,7 +72,7 @@ def genome_length(graph: Graph, learners: Sequence[str]) -> int:
 
 def sensor_rows(
     graph: Graph, measured: Sequence[list[Sensor]], task: Task, programs: Programs, parameters: Parameters
-) -> tuple[dict[str, NDArray[Any]], dict[str, int]]:
+) -> tuple[dict[str, Array], dict[str, int]]:
     """The tables of the sensors that are used, aside or exact, and how many numbers are remembered of what.
 
     What is aside draws its noise from a generator of its own, what is exact has none: neither changes anything else.
@@ -86,12 +83,12 @@ def sensor_rows(
     for sensor in used + aside + exact:
         kind, roughness = sensor.kind, {} if sensor in exact else _roughness(sensor, parameters)
         about, solid = _all_of(kind.things, things), _all_of(kind.things, boxes)
-        code, length = programs.add(placed(kind.formula, scene.starts))
         rows.append({
-            "lane": sensor_unit(kind).place, "start": sensor.start, "width": sensor.width,
-            "thing": about.start, "things": len(about), "box": solid.start, "boxes": len(solid),
+            "lane": unit_of(kind, read).place, "start": sensor.start, "width": sensor.width,
+            **span("thing", about), "box": solid.start, "boxes": len(solid),
             "turns": not scene.directions.isdisjoint({sensor.name, kind.source}),
-            "is_aside": sensor in aside, "every": 1, "code": code, "length": length,
+            "is_aside": sensor in aside, "every": 1,
+            **programs.columns(placed(kind.formula, scene.starts), "code", "length"),
             "ray": len(rays), "number": len(numbers), "before": before, "held": rough, "ring": rings,
             **_numbers(graph, sensor), **roughness, **kind.row(scene),
         })  # fmt: skip

@@ -5,12 +5,12 @@ Kinds are numbers there, and records have columns: what compiled code sees of a 
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mindrun.sim.arrays import Block, Room
+from mindrun.numbers.arrays import Array
+from mindrun.sim.arrays import Block, table
 
 PUSH, STEERING, GRIPPER, IDLE, SERVO = range(5)
 ITEM, ZONE, POWER, BOX, BALL, WALKER = range(6)
@@ -47,12 +47,17 @@ EVENT_CODES = {
 Row = Mapping[str, float]  # of a table, by the names of its columns
 
 
-def records(rows: Sequence[Row], columns: Any) -> NDArray[Any]:
+def records(rows: Sequence[Row], columns: Any) -> Array:
     """A table with these columns; what a row does not say is 0."""
     table = np.zeros(len(rows), columns)
     for column in dict.fromkeys(column for row in rows for column in row):
         table[column] = np.fromiter((row.get(column, 0) for row in rows), table.dtype[column], len(rows))
     return table
+
+
+def span(name: str, rows: range) -> Row:
+    """The columns of some rows of a table that stand side by side: the first of them, and how many there are."""
+    return {name: rows.start, f"{name}s": len(rows)}
 
 
 def _columns(*inner: tuple[Any, ...], **names: str) -> np.dtype[Any]:
@@ -138,48 +143,42 @@ PAIR = _columns(
 SPACE = _columns(i8="steps pairs touching run_into in_claw awake", f8="seconds take_back")
 
 
-Array = NDArray[Any]
 F4, F8, I8, U8 = np.float32, np.float64, np.int64, np.uint64
-
-
-def table(dtype: Any, dimensions: int = 1) -> Room:
-    """An array whose shape follows from the mind and its task."""
-    return Room(np.dtype(dtype), dimensions, lambda counts, lanes: (0,) * dimensions)
 
 
 @dataclass(frozen=True)
 class Tables(Block):
     """Everything about the program and its task that is the same in every lane."""
 
-    world: Annotated[Array, table(WORLD)]
-    sensors: Annotated[Array, table(SENSOR)]
-    rays: Annotated[Array, table(F4, 2)]  # [2, rays]: cosine and sine of each ray's angle
-    rims: Annotated[Array, table(F4)]  # [rays]: how far from the robot's middle each ray leaves it
-    ray_row: Annotated[Array, table(I8)]  # the row of readings that each ray writes
-    passes: Annotated[Array, table(I8, 2)]  # [2, rays]: the first thing that each goes on through, and the last + 1
-    numbers: Annotated[Array, table(F8)]  # of the sensors whose kinds say `numbers`
-    measured: Annotated[Array, table(bool)]  # [graph.width]: which readings anybody writes
-    skills: Annotated[Array, table(SKILL)]
-    inputs: Annotated[Array, table(I8)]  # rows of readings, skill after skill, and scopes, edge after edge
-    edges: Annotated[Array, table(EDGE)]
-    codes: Annotated[Array, table(CODE)]
-    weights: Annotated[Array, table(F4)]  # of the skills that do not learn
-    actuators: Annotated[Array, table(ACTUATOR)]
-    memories: Annotated[Array, table(MEMORY)]
-    parameters: Annotated[Array, table(PARAMETER)]
-    things: Annotated[Array, table(THING)]
-    loose: Annotated[Array, table(LOOSE)]
-    walkers: Annotated[Array, table(WALKING)]
-    ways: Annotated[Array, table(WAY)]  # that walkers go along
-    corners: Annotated[Array, table(CORNER)]  # the places of ways
-    options: Annotated[Array, table(F8, 2)]  # [places, 2]: those of which one is drawn
-    makings: Annotated[Array, table(MAKING)]  # of numbers that are made of those that the task draws
-    presences: Annotated[Array, table(PRESENCE)]  # of things and boxes that are not there in every run
-    choices: Annotated[Array, table(F8)]  # the values of numbers that the task draws
-    obstacles: Annotated[Array, table(OBSTACLE)]
-    walls: Annotated[Array, table(F8, 2)]  # [walls, BOX_COLUMNS]: the boxes that stand in the same places in every run
-    measures: Annotated[Array, table(MEASURES)]
-    events: Annotated[Array, table(EVENT)]
-    ends: Annotated[Array, table(END)]
-    rewards: Annotated[Array, table(REWARD)]
-    library: Annotated[Array, table(U8)]  # addresses of Chipmunk's functions
+    world: Array = table(WORLD)
+    sensors: Array = table(SENSOR)
+    rays: Array = table(F4, 2)  # [2, rays]: cosine and sine of each ray's angle
+    rims: Array = table(F4)  # [rays]: how far from the robot's middle each ray leaves it
+    ray_row: Array = table(I8)  # the row of readings that each ray writes
+    passes: Array = table(I8, 2)  # [2, rays]: the first thing that each goes on through, and the last + 1
+    numbers: Array = table(F8)  # of the sensors whose kinds say `numbers`
+    measured: Array = table(bool)  # [graph.width]: which readings anybody writes
+    skills: Array = table(SKILL)
+    inputs: Array = table(I8)  # rows of readings, skill after skill, and scopes, edge after edge
+    edges: Array = table(EDGE)
+    codes: Array = table(CODE)
+    weights: Array = table(F4)  # of the skills that do not learn
+    actuators: Array = table(ACTUATOR)
+    memories: Array = table(MEMORY)
+    parameters: Array = table(PARAMETER)
+    things: Array = table(THING)
+    loose: Array = table(LOOSE)
+    walkers: Array = table(WALKING)
+    ways: Array = table(WAY)  # that walkers go along
+    corners: Array = table(CORNER)  # the places of ways
+    options: Array = table(F8, 2)  # [places, 2]: those of which one is drawn
+    makings: Array = table(MAKING)  # of numbers that are made of those that the task draws
+    presences: Array = table(PRESENCE)  # of things and boxes that are not there in every run
+    choices: Array = table(F8)  # the values of numbers that the task draws
+    obstacles: Array = table(OBSTACLE)
+    walls: Array = table(F8, 2)  # [walls, BOX_COLUMNS]: the boxes that stand in the same places in every run
+    measures: Array = table(MEASURES)
+    events: Array = table(EVENT)
+    ends: Array = table(END)
+    rewards: Array = table(REWARD)
+    library: Array = table(U8)  # addresses of Chipmunk's functions

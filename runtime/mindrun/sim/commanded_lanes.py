@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph, Task
@@ -22,12 +22,14 @@ from mindrun.kinds.events.event import EventKind
 from mindrun.kinds.functions.function import Rule
 from mindrun.kinds.registry import names
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS
+from mindrun.numbers.arrays import Array, Doubles, Integers, Bools, Singles
+from mindrun.sim.arrays import whole_vectors
 from mindrun.sim.codes import GOING_ON, LOST
 from mindrun.sim.lanes.advance import after, before
 from mindrun.sim.lanes.runs import begin_again
 from mindrun.sim.lanes.think import send, wake
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.state import Jobs, State, whole_vectors
+from mindrun.sim.state import Jobs, State
 from mindrun.sim.trace import things_in, turned_in
 
 BY_LANE_FIRST = {"boxes"}  # [lane, column], where all others that are sensed are [row, lane] or [lane]
@@ -50,7 +52,7 @@ class CommandedLanes:
         rollout.fill(self.tile, self.jobs)
         self._lost = np.zeros(lanes, np.bool_)
 
-    def begin(self, lanes: NDArray[np.bool_], seeds: ArrayLike) -> None:
+    def begin(self, lanes: Bools, seeds: ArrayLike) -> None:
         """Begin the runs of these seeds in the marked lanes [lanes], one for each; `sense` takes their readings."""
         self.jobs.seeds[lanes] = np.asarray(seeds, np.uint64)
         self.jobs.lanes[0] = self.count
@@ -63,14 +65,14 @@ class CommandedLanes:
         """Take the robots' readings; once in each tick, for noise draws random numbers."""
         before(self.rollout.tables, self.state, self.jobs)
 
-    def command(self, commands: NDArray[np.float32]) -> None:
+    def command(self, commands: Singles) -> None:
         """Set the commands [lanes, actuators] of this tick; one that is not finite is neutral."""
         mind, count = self.state.mind, commands.shape[1]
         # Eq. 3 with the influence 1 gives back the command itself.
         mind.command_sums[:count, : self.count] = commands.T
         mind.influence_sums[:count, : self.count] = 1.0
 
-    def play(self, row: int, outputs: NDArray[np.float32]) -> None:
+    def play(self, row: int, outputs: Singles) -> None:
         """Set the outputs [lanes, outputs] of the skill in this row of the tables; all other skills compute theirs."""
         tables, state, lanes = self.rollout.tables, self.state, int(self.jobs.lanes[0])
         self.rollout.think(self.tile, self.jobs, 0, row)
@@ -87,7 +89,7 @@ class CommandedLanes:
         after(self.rollout.tables, self.state, self.jobs, False)
         self._lost |= (self.state.world.tick == 0) | (self.state.run.job < 0)
 
-    def sensed_aside(self, lanes: NDArray[np.bool_]) -> State:
+    def sensed_aside(self, lanes: Bools) -> State:
         """Another state whose first lanes have what the marked lanes [lanes] would read now; nothing here changes."""
         chosen = np.flatnonzero(lanes)
         places = np.resize(chosen, whole_vectors(len(chosen)))
@@ -98,40 +100,39 @@ class CommandedLanes:
         return aside
 
     @property
-    def terminated(self) -> NDArray[np.bool_]:
+    def terminated(self) -> Bools:
         """True for the lanes [lanes] in which an end was met, or the robot is beyond all places."""
         return np.asarray((self.state.run.met != GOING_ON) | self._lost)
 
     @property
-    def timed_out(self) -> NDArray[np.bool_]:
+    def timed_out(self) -> Bools:
         """True for the lanes [lanes] in which the run has lasted its time."""
         return np.asarray(self.state.world.tick >= self.rollout.task.ticks)
 
     @property
-    def ended_by(self) -> NDArray[np.int64]:
+    def ended_by(self) -> Integers:
         """The end that each run has met [lanes], as `Scores.ended_by`: GOING_ON where none, also when time is up."""
         return np.asarray(np.where(self._lost, LOST, self.state.run.met))
 
     @property
-    def lines(self) -> NDArray[np.float64]:
+    def lines(self) -> Doubles:
         """The sum that each reward line has paid in each run [lanes, lines]."""
-        paid = self.state.judge.lines[:, : self.count].T.copy()
-        if self._lost.any():
-            paid[self._lost] = self.jobs.lines[self._lost]
-        return paid
+        return self._of_runs(self.state.judge.lines, self.jobs.lines)
 
     @property
-    def scores(self) -> NDArray[np.float64]:
+    def scores(self) -> Doubles:
         """The sum that all reward lines have paid in each run [lanes]."""
         return np.asarray(score_of(self.lines))
 
     @property
-    def counts(self) -> NDArray[np.int64]:
+    def counts(self) -> Integers:
         """The number of times that each event of the task has happened in each run [lanes, events]."""
-        happened = self.state.judge.counts[: len(self.rollout.task.events), : self.count].T.copy()
-        if self._lost.any():
-            happened[self._lost] = self.jobs.counts[self._lost, : happened.shape[1]]
-        return happened
+        return self._of_runs(self.state.judge.counts, self.jobs.counts)[:, : len(self.rollout.task.events)]
+
+    def _of_runs(self, rows: Array, written: Array) -> Array:
+        """What is known of each run [lanes, columns]: of one that was lost what was written down then."""
+        columns = written.shape[1]
+        return np.where(self._lost[:, None], written, rows[:columns, : self.count].T)
 
     def world_columns(self, lane: int) -> dict[str, Any]:
         """The world of a lane after its last tick, by the columns that a recording has of it."""
@@ -149,7 +150,7 @@ class CommandedLanes:
             "ended": self.ended_by[lane] if is_over else GOES_ON,
         }
 
-    def boxes(self, lane: int) -> NDArray[np.float64]:
+    def boxes(self, lane: int) -> Doubles:
         """The obstacles of a lane [boxes, 4] as x, y and half of both sides."""
         return np.array(self.state.world.boxes[lane].reshape(-1, BOX_COLUMNS))
 
@@ -182,7 +183,7 @@ class CommandedWorld:
         self._lanes.begin(ONE_LANE, [seed])
         self._lanes.sense()
 
-    def readings(self) -> NDArray[np.float32]:
+    def readings(self) -> Singles:
         """The readings of all sensors [graph.width], NaN where nobody reads them; the last ones when the run has ended.
 
         Memories and what derives from them are the engine's to fill in.
@@ -236,7 +237,7 @@ class CommandedWorld:
         return dict(counts)
 
     @property
-    def boxes(self) -> NDArray[np.float64]:
+    def boxes(self) -> Doubles:
         """The obstacles [boxes, 4] as x, y and half of both sides."""
         return self._lanes.boxes(0)
 
@@ -271,10 +272,10 @@ def ended_by(task: Task, number: int) -> str:
     return f"success: {said}" if end.succeeds else said
 
 
-def _of_lanes(part: Any, lanes: NDArray[np.int64], count: int) -> Any:
+def _of_lanes(part: Any, lanes: Integers, count: int) -> Any:
     """A copy of some lanes of a part of the state, and of what no lane has for itself."""
 
-    def taken(name: str, rows: NDArray[Any]) -> NDArray[Any]:
+    def taken(name: str, rows: Array) -> Array:
         if rows.ndim == 1:
             return rows.take(lanes) if len(rows) == count else rows.copy()
         return rows.take(lanes, axis=0 if name in BY_LANE_FIRST else 1)

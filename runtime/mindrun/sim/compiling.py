@@ -73,11 +73,11 @@ def _term(value: Any) -> Any:
     """The value that compiled code has for a name of the lanes."""
     match value:
         case Unit():
-            return _through_slot(value)
+            return _calling(value.form, value)
         case AddressOf():
             return _address_of(value)
         case Form():
-            return _through_place(value)
+            return _calling(value, None)
         case FunctionType():
             found = VECTORS.get(value, value)
             return _compiled(found) if isinstance(found, FunctionType) else found
@@ -167,16 +167,20 @@ def _address_in_slot(builder: Any, unit: Unit) -> Any:
 
 
 @cache
-def _through_slot(unit: Unit) -> Any:
-    """A call of a unit."""
+def _calling(form: Form, unit: Unit | None) -> Any:
+    """A call of a unit, or of the one of which the first argument is the address of its slot."""
 
     @intrinsic  # type: ignore[untyped-decorator]
     def call_unit(typingctx: Any, *given: Any) -> Any:
         def generate(context: Any, builder: Any, signature: Any, values: Any) -> Any:
-            address = _address_in_slot(builder, unit)
-            return _call(context, builder, address, unit.form, signature.args[0], values[0])
+            each = [builder.extract_value(values[0], number) for number in range(len(given))]
+            if unit is None:
+                address = builder.load(builder.inttoptr(each.pop(0), WORD.as_pointer()))
+            else:
+                address = _address_in_slot(builder, unit)
+            return _call(context, builder, address, form, given[-len(each) :], each)
 
-        return _numba_type(unit.form.gives)(types.StarArgTuple(given)), generate
+        return _numba_type(form.gives)(types.StarArgTuple(given)), generate
 
     return call_unit
 
@@ -192,26 +196,10 @@ def _address_of(of: AddressOf) -> Any:
     return address
 
 
-@cache
-def _through_place(form: Form) -> Any:
-    """A call of a unit by the address of its slot."""
-
-    @intrinsic  # type: ignore[untyped-decorator]
-    def call_unit(typingctx: Any, slot: Any, *given: Any) -> Any:
-        def generate(context: Any, builder: Any, signature: Any, values: Any) -> Any:
-            address = builder.load(builder.inttoptr(values[0], WORD.as_pointer()))
-            return _call(context, builder, address, form, signature.args[1], values[1])
-
-        return _numba_type(form.gives)(types.uint64, types.StarArgTuple(given)), generate
-
-    return call_unit
-
-
 def _call(context: Any, builder: Any, address: Any, form: Form, given: Any, values: Any) -> Any:
-    """Call the function of C at an address with a tuple of values."""
-    kinds = [_numba_type(kind) for kind in form.takes]
-    each = [builder.extract_value(values, number) for number in range(len(given))]
-    cast = [context.cast(builder, *pair) for pair in zip(each, given, kinds, strict=True)]
+    """Call the function of C at an address with some values, whose types are `given`."""
+    kinds = map(_numba_type, form.takes)
+    cast = [context.cast(builder, *each) for each in zip(values, given, kinds, strict=True)]
     gives = ir.VoidType() if form.gives is None else context.get_value_type(_numba_type(form.gives))
     function = ir.FunctionType(gives, [value.type for value in cast]).as_pointer()
     result = builder.call(builder.inttoptr(address, function), cast)

@@ -13,16 +13,8 @@ compute = Form((Tables, MindState, SKILL, int), int)
 _MAKING = Lock()
 
 
-def sensor_unit(kind: Any) -> Unit:
-    """The unit of a sensor's kind."""
-    return _unit(kind.lane, read)
-
-
-def skill_unit(function: Any) -> Unit:
-    """The unit of a skill's function."""
-    return _unit(function.lane, compute)
-
-
-def _unit(lane: Any, form: Form) -> Unit:
+def unit_of(kind: Any, form: Form) -> Unit:
+    """The unit of a kind's lane function: `read` is the form of a sensor's, `compute` that of a skill's function."""
+    lane = kind.lane
     with _MAKING:  # there is never another one: tables have the place of its slot
         return UNITS.get(f"{lane.__module__}.{lane.__qualname__}") or Unit(lane, form, lambda tables: True)

@@ -5,19 +5,17 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.graph.graph import Edge, Graph, Program, Skill
 from mindrun.graph.scopes import Scopes, influence_scopes
 from mindrun.graph.weights import NO_WEIGHTS, genes, weights_of
 from mindrun.kinds.registry import names
+from mindrun.numbers.arrays import Array, Singles
 from mindrun.numbers.stack_machine import COMMAND, NEGATE, NUMBER, OPERATIONS
 from mindrun.sim.codes import ACTUATOR, ACTUATOR_CODES, EDGE, MEMORY, SKILL, Row, records
-from mindrun.sim.kind_lanes import skill_unit
+from mindrun.sim.kind_lanes import compute, unit_of
 from mindrun.sim.parameter_rows import SAME_IN_EVERY_RUN, Parameters
 
-Array = NDArray[Any]
-Floats = NDArray[np.float32]
 VARYING_COLUMNS = {
     "thrust": "thrust", "noise": "noise", "slip": "slip", "turn": "range", "speed": "speed", "starts": "starts",
 }  # arguments that may vary  # fmt: skip
@@ -50,11 +48,15 @@ class Programs:
             self.rows.append((op, 0 if op == NUMBER else int(value), number))
         return first, len(self.rows) - first
 
+    def columns(self, program: Program | None, first: str, length: str) -> Row:
+        """Add a program, none where there is none; the columns that say where it stands."""
+        return dict(zip((first, length), self.add(program or ()), strict=True))
+
 
 def skill_rows(
     graph: Graph,
     reached: Sequence[Skill],
-    weights: Mapping[str, Floats],
+    weights: Mapping[str, Singles],
     learners: Sequence[str],
     addresses: Mapping[str, int],
     codes: Programs,
@@ -74,7 +76,7 @@ def skill_rows(
         function, count, outputs = skill.function, len(skill.inputs), skill.outputs
         own, remembered = skill.owner in starts, function.state_length(count, outputs)
         row: Row = {
-            "lane": skill_unit(function).place, "index": numbers[skill.name],
+            "lane": unit_of(function, compute).place, "index": numbers[skill.name],
             "input": len(inputs), "inputs": count, "outputs": outputs,
             "weights": int(starts[skill.owner]) if own else places[skill.owner], "own": own,
             "edge": len(edges), "edges": len(skill.edges), "address": addresses.get(skill.name, 0), "state": state,
@@ -93,7 +95,7 @@ def skill_rows(
     return {**tables, "weights": shared}, {"inputs": most_inputs, "scratch": scratch, "recurrent": state}
 
 
-def _shared_weights(skills: Sequence[Skill], weights: Mapping[str, Floats]) -> tuple[Floats, dict[str, int]]:
+def _shared_weights(skills: Sequence[Skill], weights: Mapping[str, Singles]) -> tuple[Singles, dict[str, int]]:
     """The weights of these skills one after the other, and where those of each owner begin."""
     first: dict[str, Skill] = {}
     for skill in skills:
@@ -111,14 +113,13 @@ def _scopes(edge: Edge, scopes: Scopes, skills: int) -> tuple[Row, list[int]]:
 
 
 def _edge(graph: Graph, edge: Edge, codes: Programs) -> Row:
-    first, length = codes.add(edge.value)
-    when, whens = codes.add(edge.gate.when if edge.gate else ())
-    other, others = codes.add((edge.gate and edge.gate.otherwise) or ())
+    gate: Any = edge.gate
     sinks_before = len(graph.actuators) if edge.to == "memory" else 0
     return {
         "to_skill": edge.to == "skill", "target": edge.target + sinks_before,
-        "output": -1 if edge.output is None else edge.output, "code": first, "length": length,
-        "when": when, "whens": whens, "other": other, "others": others, "cuts": edge.cuts,
+        "output": -1 if edge.output is None else edge.output, "cuts": edge.cuts,
+        **codes.columns(edge.value, "code", "length"), **codes.columns(gate and gate.when, "when", "whens"),
+        **codes.columns(gate and gate.otherwise, "other", "others"),
     }  # fmt: skip
 
 

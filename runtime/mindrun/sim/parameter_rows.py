@@ -6,11 +6,10 @@ Each is a row of `world.numbers` [row, lane], the same in every lane where nothi
 from dataclasses import replace
 from typing import Any, TypeVar
 
-from numpy.typing import NDArray
-
 from mindrun.graph.draws import Draw
 from mindrun.graph.graph import Graph, Task, Variation, Varying, varied_quantity
 from mindrun.graph.tasks import varied_kind
+from mindrun.numbers.arrays import Array
 from mindrun.sim.codes import (
     BETWEEN,
     CHOSEN,
@@ -68,7 +67,7 @@ class Parameters:
         self._makings.append({"row": row, "code": code, "length": length})
         return row
 
-    def makings(self) -> NDArray[Any]:
+    def makings(self) -> Array:
         """Rows of MAKING."""
         return records(self._makings, MAKING)
 
@@ -99,7 +98,7 @@ class Parameters:
         whole: Any = kind
         return replace(whole, **{key: type(getattr(kind, key))(value) for key, value in own.items()}) if own else kind
 
-    def table(self) -> NDArray[Any]:
+    def table(self) -> Array:
         """Rows of PARAMETER."""
         return records(self._rows, PARAMETER)
 

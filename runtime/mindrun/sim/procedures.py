@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.engine.engine import procedure_sources
 from mindrun.errors import ProcedureError
@@ -19,6 +18,7 @@ from mindrun.graph.weights import reachable
 from mindrun.kinds import procedure_call
 from mindrun.kinds.procedure_call import load
 from mindrun.kinds.procedure_text import module_of
+from mindrun.numbers.arrays import Singles
 from mindrun.sim.units import call
 
 
@@ -49,7 +49,7 @@ class Procedures:
         """The function of a skill, in a module of its own that remembers nothing."""
         return load(self.calls[skill], self._sources)
 
-    def explain(self, skill: str, inputs: NDArray[np.float32]) -> ProcedureError:
+    def explain(self, skill: str, inputs: Singles) -> ProcedureError:
         """The error of a compiled procedure that failed, which Python gives for the same inputs."""
         calls = self.calls[skill]
         try:
@@ -78,10 +78,7 @@ class Procedures:
 
 @dataclass(frozen=True, slots=True)
 class Memories:
-    """The procedures of every run that goes on: each has modules of its own, as on a robot that has just started.
-
-    What a procedure remembers is of its run alone, whatever runs beside it, before it or after it.
-    """
+    """The procedures of every run that goes on: each has modules of its own, as on a robot that has just started."""
 
     procedures: Procedures
     functions: dict[tuple[str, int], Callable[..., Any]] = field(default_factory=dict)

@@ -16,6 +16,8 @@ from mindrun.graph.graph import Task
 from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores, score_of
 from mindrun.graph.tasks import is_one_world
+from mindrun.numbers.arrays import Array, Integers, Singles
+from mindrun.sim.arrays import whole_vectors
 from mindrun.sim.build import build, genome_length
 from mindrun.sim.c_library import library
 from mindrun.sim.compilation import compile_missing
@@ -24,10 +26,9 @@ from mindrun.sim.lanes.advance import advance, after, before
 from mindrun.sim.lanes.runs import fill
 from mindrun.sim.lanes.think import send, think, wake
 from mindrun.sim.procedures import Memories, Procedures
-from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, Jobs, State, empty_state, unbegun, whole_vectors
+from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, Jobs, State, empty_state, unbegun
 from mindrun.sim.units import Unit
 
-Array = NDArray[Any]
 T = TypeVar("T")
 R = TypeVar("R")
 DEFAULT_LANES = 256
@@ -80,7 +81,7 @@ class Rollout:
 
     def score(
         self,
-        genomes: NDArray[np.float32],
+        genomes: Singles,
         seeds: Sequence[int],
         ran: Callable[[float], None] = lambda runs: None,
         ticks: int | None = None,
@@ -105,13 +106,13 @@ class Rollout:
         other.workers = workers
         return other
 
-    def draw(self, count: int, rng: np.random.Generator) -> NDArray[np.float32]:
+    def draw(self, count: int, rng: np.random.Generator) -> Singles:
         """Random genomes [count, genome_length] for learning to begin with."""
         none = np.empty((count, 0), np.float32)
         each = (skill.function.draw(len(skill.inputs), skill.outputs, count, rng) for skill in self.learners)
         return np.concatenate([none, *each], axis=1)
 
-    def jobs(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64], ticks: int | None = None) -> Jobs:
+    def jobs(self, genomes: Singles, seeds: NDArray[np.uint64], ticks: int | None = None) -> Jobs:
         """Every genome on every seed, as jobs that have not begun; with `ticks` none lasts longer than so many."""
         pairs = np.indices((len(genomes), len(seeds))).reshape(2, -1)
         most = np.array([min(ticks or self.task.ticks, self.task.ticks)])
@@ -140,7 +141,7 @@ class Rollout:
         """A tile with room for so many lanes."""
         return Tile(empty_state(self.tables, self.sizes, lanes), Memories(self.procedures))
 
-    def _run(self, jobs: Jobs, share: NDArray[np.int64], stop: Event, ran: Callable[[float], None]) -> Jobs:
+    def _run(self, jobs: Jobs, share: Integers, stop: Event, ran: Callable[[float], None]) -> Jobs:
         lines, events = jobs.lines.shape[1], jobs.counts.shape[1]
         mine = unbegun(jobs.genomes, jobs.seeds, jobs.most, jobs.genome[share], jobs.seed[share], lines, events)
         tile = self.tile(lanes_for(len(share), self.lanes))
@@ -178,7 +179,7 @@ class Rollout:
         """Sentences that a user should read about the runs so far."""
         return ()
 
-    def make_again(self, genome: NDArray[np.float32], seed: int) -> None:
+    def make_again(self, genome: Singles, seed: int) -> None:
         """Make a run twice where it may not be the same again: the lanes' own worlds always are."""
 
     def observe(self, tile: Tile, jobs: Jobs) -> None:

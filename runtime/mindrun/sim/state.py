@@ -5,19 +5,18 @@ itself says its `shape`. What stands under "for this tick" is computed anew in e
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, make_dataclass
-from typing import Annotated, Any, TypeVar
+from dataclasses import dataclass, field, fields, make_dataclass
+from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
-from mindrun.numbers.arithmetic import BOX_COLUMNS, LANES, LOOSE_ROWS, THING_ROWS, X, Y
-from mindrun.sim.arrays import Block, Count, Room
+from mindrun.numbers.arithmetic import BOX_COLUMNS, LOOSE_ROWS, THING_ROWS, X, Y
+from mindrun.numbers.arrays import Array
+from mindrun.sim.arrays import Block, columns, each, rows, shape
 from mindrun.sim.codes import AWAY, PAIR, PUSH_ROWS, SOLID, SPACE, WALL_COUNT, Tables
 
-Array = NDArray[Any]
-Part = TypeVar("Part")
+Part = TypeVar("Part", bound=Block)
 PLACE_ROWS = 2  # x and y
 SIGHT_COSINE, SIGHT_SINE, SIGHT_X, SIGHT_Y, FIRST_RAY = range(5)  # rows of `sight`
 LEFT, RIGHT, LOW, HIGH, SIDES = range(5)  # rows of a box in `sides`, and how many
@@ -29,178 +28,150 @@ MOST_PAIRS, PAIRS_EACH, SPARE_PAIRS = 64, 16, 16  # in a lane, more for each loo
 F4, F8, I8, U1, U8 = np.float32, np.float64, np.int64, np.uint8, np.uint64
 
 
-def rows(count: Count, times: int = 1, kind: Any = F8) -> Room:
-    """An array [row, lane] of at least one row, in whole vectors of lanes: networks compute sixteen at a time."""
-    return Room(np.dtype(kind), 2, lambda n, lanes: (max(1, times * _number(count, n)), whole_vectors(lanes)))
-
-
-def columns(count: Count, times: int = 1, kind: Any = F8) -> Room:
-    """An array [lane, column]."""
-    return Room(np.dtype(kind), 2, lambda n, lanes: (lanes, times * _number(count, n)))
-
-
-def each(kind: Any = I8) -> Room:
-    """An array [lane]."""
-    return Room(np.dtype(kind), 1, lambda n, lanes: (lanes,))
-
-
-def shape(*counts: Count, kind: Any = I8) -> Room:
-    """An array that no lane has for itself."""
-    return Room(np.dtype(kind), len(counts), lambda n, lanes: tuple(_number(count, n) for count in counts))
-
-
-def whole_vectors(lanes: int) -> int:
-    """A number of lanes, rounded up to whole vectors."""
-    return -(-lanes // LANES) * LANES
-
-
-def _number(count: Count, n: Mapping[str, int]) -> int:
-    return n[count] if isinstance(count, str) else count
-
-
 @dataclass(frozen=True)
 class WorldState(Block):
     """Places and motions of everything."""
 
-    body: Annotated[Array, rows(6)]  # x, y, angle, their velocities
-    heading: Annotated[Array, rows(2)]  # cosine and sine of the angle
-    boxes: Annotated[Array, columns("boxes", BOX_COLUMNS)]  # x, y, half of both sides of each
-    things: Annotated[Array, rows("things", THING_ROWS)]  # x, y, size, distance to the robot when the tick began
-    loose: Annotated[Array, rows("loose", LOOSE_ROWS)]  # how far each loose thing has turned, its velocity and spin
-    still: Annotated[Array, rows("loose", kind=I8)]  # for how many ticks each has not moved, up to SETTLED_TICKS
-    restless: Annotated[Array, each()]  # how many have not settled
-    direction: Annotated[Array, rows("walkers")]  # of each that wanders, an angle
-    goal: Annotated[Array, rows("walkers", kind=I8)]  # the corner of its way that each goes to
-    swivel: Annotated[Array, rows("actuators")]  # of each servo, the angle by which it is turned to the left
-    held: Annotated[Array, each()]  # the thing that the claw holds, or −1
-    reached: Annotated[Array, rows("things", kind=U1)]  # bit 0 while it is in reach, bit 1 if it was in the tick before
-    delivered: Annotated[Array, rows("things", kind=U1)]  # the same of items that lie in a zone
-    battery: Annotated[Array, each(F8)]
-    seed: Annotated[Array, each(U8)]  # of the run
-    random: Annotated[Array, each(U8)]  # the generator
-    random_aside: Annotated[Array, each(U8)]  # the generator of what no skill reads: a reward changes nothing
-    tick: Annotated[Array, each()]  # how many the run has lasted
-    numbers: Annotated[Array, rows("parameters")]  # what may differ from run to run
-    trail: Annotated[Array, rows(TRAIL_TICKS, PLACE_ROWS)]  # where the robot was in the last ticks
+    body: Array = rows(6)  # x, y, angle, their velocities
+    heading: Array = rows(2)  # cosine and sine of the angle
+    boxes: Array = columns("boxes", BOX_COLUMNS)  # x, y, half of both sides of each
+    things: Array = rows("things", THING_ROWS)  # x, y, size, distance to the robot when the tick began
+    loose: Array = rows("loose", LOOSE_ROWS)  # how far each loose thing has turned, its velocity and spin
+    still: Array = rows("loose", kind=I8)  # for how many ticks each has not moved, up to SETTLED_TICKS
+    restless: Array = each()  # how many have not settled
+    direction: Array = rows("walkers")  # of each that wanders, an angle
+    goal: Array = rows("walkers", kind=I8)  # the corner of its way that each goes to
+    swivel: Array = rows("actuators")  # of each servo, the angle by which it is turned to the left
+    held: Array = each()  # the thing that the claw holds, or −1
+    reached: Array = rows("things", kind=U1)  # bit 0 while it is in reach, bit 1 if it was in the tick before
+    delivered: Array = rows("things", kind=U1)  # the same of items that lie in a zone
+    battery: Array = each(F8)
+    seed: Array = each(U8)  # of the run
+    random: Array = each(U8)  # the generator
+    random_aside: Array = each(U8)  # the generator of what no skill reads: a reward changes nothing
+    tick: Array = each()  # how many the run has lasted
+    numbers: Array = rows("parameters")  # what may differ from run to run
+    trail: Array = rows(TRAIL_TICKS, PLACE_ROWS)  # where the robot was in the last ticks
     # for this tick
-    push: Annotated[Array, rows(PUSH_ROWS)]  # force along the heading, torque, the force's x and y, force to the left
-    drive: Annotated[Array, rows("loose", PLACE_ROWS)]  # the force that each loose thing drives itself with
-    acting: Annotated[Array, rows("actuators", kind=F4)]  # the commands as they act, after noise and failures
-    grip: Annotated[Array, rows("actuators")]  # the share of its force that each keeps
-    begun_at: Annotated[Array, rows(PLACE_ROWS)]  # where the robot was when the tick began
+    push: Array = rows(PUSH_ROWS)  # force along the heading, torque, the force's x and y, force to the left
+    drive: Array = rows("loose", PLACE_ROWS)  # the force that each loose thing drives itself with
+    acting: Array = rows("actuators", kind=F4)  # the commands as they act, after noise and failures
+    grip: Array = rows("actuators")  # the share of its force that each keeps
+    begun_at: Array = rows(PLACE_ROWS)  # where the robot was when the tick began
 
 
 @dataclass(frozen=True)
 class SightState(Block):
     """The boxes that each robot can see or touch, and the distances along its rays."""
 
-    nearby: Annotated[Array, rows("boxes", BOX_COLUMNS)]  # what its rays or robot can meet; others are AWAY
-    nearby_count: Annotated[Array, each()]
-    nearby_most: Annotated[Array, shape(1)]  # of any lane
-    anchor: Annotated[Array, rows(PLACE_ROWS)]  # where they were chosen
+    nearby: Array = rows("boxes", BOX_COLUMNS)  # what its rays or robot can meet; others are AWAY
+    nearby_count: Array = each()
+    nearby_most: Array = shape(1)  # of any lane
+    anchor: Array = rows(PLACE_ROWS)  # where they were chosen
     # for this tick
-    sides: Annotated[Array, rows("boxes", SIDES, kind=F4)]  # those of the boxes nearby, relative to the robot
-    nearest: Annotated[Array, rows(THING_ROWS)]  # of several things of one name
-    nearest_of: Annotated[Array, shape(1)]  # which these are, −2 − the first box, −1 before any sensor has asked
-    frame: Annotated[Array, rows(FRAME_ROWS, kind=F4)]  # of the thing that is looked at
-    sight: Annotated[Array, rows("sight", kind=F4)]  # heading and place, then how far each ray goes
+    sides: Array = rows("boxes", SIDES, kind=F4)  # those of the boxes nearby, relative to the robot
+    nearest: Array = rows(THING_ROWS)  # of several things of one name
+    nearest_of: Array = shape(1)  # which these are, −2 − the first box, −1 before any sensor has asked
+    frame: Array = rows(FRAME_ROWS, kind=F4)  # of the thing that is looked at
+    sight: Array = rows("sight", kind=F4)  # heading and place, then how far each ray goes
 
 
 @dataclass(frozen=True)
 class MindState(Block):
     """Readings, memories, influence and commands."""
 
-    readings: Annotated[Array, rows("readings", kind=F4)]
-    before: Annotated[Array, rows("before", kind=F4)]  # of a derivative what its source read before
-    measured: Annotated[Array, rows("rough", kind=F4)]  # what was measured last
-    rings: Annotated[Array, rows("rings", kind=F4)]  # what was measured and is not seen yet
-    genome: Annotated[Array, rows("genome", kind=F4)]  # of the learner
-    recurrent: Annotated[Array, rows("recurrent", kind=F4)]  # what skills remember
-    influence: Annotated[Array, rows("skills", kind=F4)]
-    scoped: Annotated[Array, rows("scoped", kind=F4)]  # that of all skills in each scope but the first
-    command_sums: Annotated[Array, rows("sinks", kind=F4)]  # of the commands times the influence behind them
-    influence_sums: Annotated[Array, rows("sinks", kind=F4)]  # of this influence
-    commands: Annotated[Array, rows("actuators", kind=F4)]  # as they act
-    late: Annotated[Array, rows("delays", kind=F4)]  # commands that wait
+    readings: Array = rows("readings", kind=F4)
+    before: Array = rows("before", kind=F4)  # of a derivative what its source read before
+    measured: Array = rows("rough", kind=F4)  # what was measured last
+    rings: Array = rows("rings", kind=F4)  # what was measured and is not seen yet
+    genome: Array = rows("genome", kind=F4)  # of the learner
+    recurrent: Array = rows("recurrent", kind=F4)  # what skills remember
+    influence: Array = rows("skills", kind=F4)
+    scoped: Array = rows("scoped", kind=F4)  # that of all skills in each scope but the first
+    command_sums: Array = rows("sinks", kind=F4)  # of the commands times the influence behind them
+    influence_sums: Array = rows("sinks", kind=F4)  # of this influence
+    commands: Array = rows("actuators", kind=F4)  # as they act
+    late: Array = rows("delays", kind=F4)  # commands that wait
     # for this tick, of one skill: side by side for the lanes in which it has influence
-    active: Annotated[Array, each(U8)]  # which lanes these are
-    gathered: Annotated[Array, rows("inputs", kind=F4)]
-    sound: Annotated[Array, each(F4)]  # 0 where all inputs are finite, else NaN
-    hidden: Annotated[Array, rows("scratch", kind=F4)]
-    stack: Annotated[Array, rows("depth")]  # of expressions
-    values: Annotated[Array, each(F4)]  # of an edge with `at`
-    opened: Annotated[Array, each(F4)]  # of an edge with `when`, 1 where that holds
-    other: Annotated[Array, each(F4)]  # what it sends otherwise
-    gated: Annotated[Array, each(F4)]  # which of the two it sends
-    sent: Annotated[Array, each(F4)]  # the values of an edge, −1 where nothing is sent
-    chosen: Annotated[Array, each()]  # the edge that a skill chooses, −1 for none
-    greatest: Annotated[Array, each(F4)]  # its value
+    active: Array = each(U8)  # which lanes these are
+    gathered: Array = rows("inputs", kind=F4)
+    sound: Array = each(F4)  # 0 where all inputs are finite, else NaN
+    hidden: Array = rows("scratch", kind=F4)
+    stack: Array = rows("depth")  # of expressions
+    values: Array = each(F4)  # of an edge with `at`
+    opened: Array = each(F4)  # of an edge with `when`, 1 where that holds
+    other: Array = each(F4)  # what it sends otherwise
+    gated: Array = each(F4)  # which of the two it sends
+    sent: Array = each(F4)  # the values of an edge, −1 where nothing is sent
+    chosen: Array = each()  # the edge that a skill chooses, −1 for none
+    greatest: Array = each(F4)  # its value
 
 
 @dataclass(frozen=True)
 class ContactState(Block):
     """What touches in each lane, what is remembered of it, and the motion in a tick in which something could touch."""
 
-    near: Annotated[Array, each()]  # ticks for which a lane is still made like that
-    touching: Annotated[Array, each()]  # bit 0 while something touches, bit 1 if something did in the tick before
-    space: Annotated[Array, each(SPACE)]  # its steps
-    solids: Annotated[Array, columns("solids", kind=SOLID)]  # all that moves, and room for one that does not
-    pairs: Annotated[Array, columns("pairs", kind=PAIR)]  # what touches, or did a few steps ago
-    order: Annotated[Array, columns("pairs", kind=I8)]  # their numbers: first of those that touch, last of no pairs
-    last: Annotated[Array, each(F8)]  # seconds of its last step, infinitely many where nothing can have touched
+    near: Array = each()  # ticks for which a lane is still made like that
+    touching: Array = each()  # bit 0 while something touches, bit 1 if something did in the tick before
+    space: Array = each(SPACE)  # its steps
+    solids: Array = columns("solids", kind=SOLID)  # all that moves, and room for one that does not
+    pairs: Array = columns("pairs", kind=PAIR)  # what touches, or did a few steps ago
+    order: Array = columns("pairs", kind=I8)  # their numbers: first of those that touch, last of no pairs
+    last: Array = each(F8)  # seconds of its last step, infinitely many where nothing can have touched
     # for this tick
-    gap: Annotated[Array, each(F8)]  # from the robot's next centre to what is nearest
-    swift: Annotated[Array, each()]  # 1 where something is so fast that it could pass something, until the tick is made
-    awake: Annotated[Array, columns("solids", kind=I8)]  # the solids that take part, as the hash has them
-    close: Annotated[Array, columns("close", kind=I8)]  # the boxes and walls that come close to one solid
+    gap: Array = each(F8)  # from the robot's next centre to what is nearest
+    swift: Array = each()  # 1 where something is so fast that it could pass something, until the tick is made
+    awake: Array = columns("solids", kind=I8)  # the solids that take part, as the hash has them
+    close: Array = columns("close", kind=I8)  # the boxes and walls that come close to one solid
 
 
 @dataclass(frozen=True)
 class JudgeState(Block):
     """Measures, events and rewards of a task."""
 
-    last_commands: Annotated[Array, rows("actuators", kind=F4)]  # of the tick before
-    left_changes: Annotated[Array, rows("changes")]  # how much the left wheel's command changed
-    right_changes: Annotated[Array, rows("changes")]
-    visited: Annotated[Array, columns("board", kind=U1)]
-    arrived: Annotated[Array, rows("arrivals", kind=U1)]  # as `delivered`, of zones or things of one name
-    lines: Annotated[Array, rows("rewards")]  # the sum of each reward line
-    counts: Annotated[Array, rows("events", kind=I8)]  # how often each happened in this run
-    left: Annotated[Array, rows("windows", kind=I8)]  # in how many ticks, this one too, an event may come after another
+    last_commands: Array = rows("actuators", kind=F4)  # of the tick before
+    left_changes: Array = rows("changes")  # how much the left wheel's command changed
+    right_changes: Array = rows("changes")
+    visited: Array = columns("board", kind=U1)
+    arrived: Array = rows("arrivals", kind=U1)  # as `delivered`, of zones or things of one name
+    lines: Array = rows("rewards")  # the sum of each reward line
+    counts: Array = rows("events", kind=I8)  # how often each happened in this run
+    left: Array = rows("windows", kind=I8)  # in how many ticks, this one too, an event may come after another
     # for this tick
-    measures: Annotated[Array, rows("measures")]
-    apart: Annotated[Array, rows("measures")]  # how far two things were from each other as the tick began
-    events: Annotated[Array, rows("events")]  # how often it happened
-    happened: Annotated[Array, shape("happened")]  # in how many lanes
-    paid: Annotated[Array, each(F8)]  # whether a line pays, or an end has come; before that, room for a measure
+    measures: Array = rows("measures")
+    apart: Array = rows("measures")  # how far two things were from each other as the tick began
+    events: Array = rows("events")  # how often it happened
+    happened: Array = shape("happened")  # in how many lanes
+    paid: Array = each(F8)  # whether a line pays, or an end has come; before that, room for a measure
 
 
 @dataclass(frozen=True)
 class RunState(Block):
     """The job of each lane, and its end."""
 
-    job: Annotated[Array, each()]  # the number of its job, −1 for none
-    ended: Annotated[Array, each()]  # what ended it, by its place among the task's ends, or GOING_ON, or LOST
-    met: Annotated[Array, each()]  # the end that came first, or GOING_ON; where nothing interrupts, the run goes on
-    faults: Annotated[Array, each()]  # values that were not sent
-    failed: Annotated[Array, shape(2)]  # the skill whose procedure failed, or −1, and the column of `gathered`
-
-
-SENSED = (
-    "readings", "before", "body", "heading", "things", "held", "battery", "tick", "trail", "loose", "nearest",
-    "nearest_of", "frame", "sight", "boxes", "nearby", "nearby_count", "stack", "active", "seed", "influence", "swivel",
-)  # fmt: skip
-SENSED_PARTS = {"mind": MindState, "world": WorldState, "sight": SightState}
-
-
-def _part_with(name: str) -> str:
-    return next(part for part, kind in SENSED_PARTS.items() if name in kind.__annotations__)
+    job: Array = each()  # the number of its job, −1 for none
+    ended: Array = each()  # what ended it, by its place among the task's ends, or GOING_ON, or LOST
+    met: Array = each()  # the end that came first, or GOING_ON; where nothing interrupts, the run goes on
+    faults: Array = each()  # values that were not sent
+    failed: Array = shape(2)  # the skill whose procedure failed, or −1, and the column of `gathered`
 
 
 # What the lane function of a sensor's kind sees of the state, and where it writes: arrays of its parts.
+SENSED: Mapping[str, tuple[type[Block], tuple[str, ...]]] = {
+    "mind": (MindState, ("readings", "before", "stack", "active", "influence")),
+    "sight": (SightState, ("nearest", "nearest_of", "frame", "sight", "nearby", "nearby_count")),
+    "world": (WorldState, (
+        "body", "heading", "things", "held", "battery", "tick", "trail", "loose", "boxes", "seed", "swivel",
+    )),
+}  # fmt: skip
 Senses = make_dataclass(
     "Senses",
-    [(name, SENSED_PARTS[_part_with(name)].__annotations__[name]) for name in SENSED],
+    [
+        (each.name, Array, field(metadata=each.metadata))
+        for part, names in SENSED.values()
+        for each in fields(part)
+        if each.name in names
+    ],
     bases=(Block,),
     frozen=True,
 )
@@ -219,7 +190,7 @@ class State(Block):
     senses: Senses = field(init=False)  # type: ignore[valid-type]
 
     def __post_init__(self) -> None:
-        of = {name: getattr(getattr(self, _part_with(name)), name) for name in SENSED}
+        of = {name: getattr(getattr(self, part), name) for part, (_, names) in SENSED.items() for name in names}
         object.__setattr__(self, "senses", Senses(**of))
 
 
@@ -227,30 +198,30 @@ class State(Block):
 class Jobs(Block):
     """The jobs to run, genome by layout, and their results."""
 
-    genomes: Annotated[Array, shape(0, 0, kind=F4)]  # [genomes, weights]
-    seeds: Annotated[Array, shape(0, kind=U8)]
-    genome: Annotated[Array, shape("jobs")]  # index
-    seed: Annotated[Array, shape("jobs")]  # index
-    most: Annotated[Array, shape(1)]  # ticks that a run lasts
-    next: Annotated[Array, shape(1)]  # the next job to start
-    lanes: Annotated[Array, shape(1)]  # how many lanes are at work
-    clock: Annotated[Array, shape(1)]  # ticks since the beginning, for the rings
-    lines: Annotated[Array, shape("jobs", "lines", kind=F8)]
-    counts: Annotated[Array, shape("jobs", "events")]
-    ticks: Annotated[Array, shape("jobs")]
-    ended: Annotated[Array, shape("jobs")]
-    met: Annotated[Array, shape("jobs")]  # the end that came first, whatever ended the run
-    faults: Annotated[Array, shape("jobs")]
-    doubles: Annotated[Array, shape(0, 0, kind=F8)]  # the first lane after each tick, in as many as there is room for
-    singles: Annotated[Array, shape(0, 0, kind=F4)]  # its mind (lanes/advance)
-    recorded: Annotated[Array, shape(1)]  # how many ticks have been written down
+    genomes: Array = shape(0, 0, kind=F4)  # [genomes, weights]
+    seeds: Array = shape(0, kind=U8)
+    genome: Array = shape("jobs")  # index
+    seed: Array = shape("jobs")  # index
+    most: Array = shape(1)  # ticks that a run lasts
+    next: Array = shape(1)  # the next job to start
+    lanes: Array = shape(1)  # how many lanes are at work
+    clock: Array = shape(1)  # ticks since the beginning, for the rings
+    lines: Array = shape("jobs", "lines", kind=F8)
+    counts: Array = shape("jobs", "events")
+    ticks: Array = shape("jobs")
+    ended: Array = shape("jobs")
+    met: Array = shape("jobs")  # the end that came first, whatever ended the run
+    faults: Array = shape("jobs")
+    doubles: Array = shape(0, 0, kind=F8)  # the first lane after each tick, in as many as there is room for
+    singles: Array = shape(0, 0, kind=F4)  # its mind (lanes/advance)
+    recorded: Array = shape(1)  # how many ticks have been written down
 
 
 def empty_state(tables: Tables, sizes: Mapping[str, int], lanes: int) -> State:
     """A state with room for so many lanes, all idle."""
     n = _counts(tables, sizes)
-    parts: Any = State.__annotations__
-    state = State(**{name: _empty(part, n, lanes) for name, part in parts.items() if part is not Senses})
+    parts: Mapping[str, Any] = State.layout()
+    state = State(**{name: _empty(part, n, lanes) for name, (_, part) in parts.items() if part is not Senses})
     nearby = state.sight.nearby
     nearby[X::BOX_COLUMNS] = nearby[Y::BOX_COLUMNS] = AWAY
     state.mind.readings[: len(tables.measured)][~tables.measured] = np.nan  # the lanes write none of these
@@ -276,9 +247,10 @@ def recorded(state: State) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
 
 def _empty(part: type[Part], n: Mapping[str, int], lanes: int, **known: Array) -> Part:
     """A part of the state, or jobs: zeros in all that is not known."""
+    layout: Mapping[str, Any] = part.layout()
     return part(**{
-        name: known[name] if name in known else kind.__metadata__[0].empty(n, lanes)
-        for name, kind in part.__annotations__.items()
+        name: known[name] if name in known else room.empty(n, lanes)
+        for name, (_, room) in layout.items()
     })  # fmt: skip
 
 

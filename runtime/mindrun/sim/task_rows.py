@@ -5,7 +5,6 @@ from itertools import accumulate, count
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.graph.graph import Graph, Sensor, Task, Thing
 from mindrun.graph.tasks import goals
@@ -13,12 +12,12 @@ from mindrun.kinds.registry import names
 from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.things.thing import OUTCOMES, STAYS, ThingKind
 from mindrun.kinds.things.walker import ANYWHERE
+from mindrun.numbers.arrays import Array
 from mindrun.sim import codes
-from mindrun.sim.codes import DAMPING, HALF_DIAGONAL, INVERSE, OVER, TIMES, WALL_COUNT, Row, records
+from mindrun.sim.codes import DAMPING, HALF_DIAGONAL, INVERSE, OVER, TIMES, WALL_COUNT, Row, records, span
 from mindrun.sim.mind_rows import Programs
 from mindrun.sim.parameter_rows import SAME_IN_EVERY_RUN, Parameters, Step
 
-Array = NDArray[Any]
 MIN_CELL_UNITS = 20.0  # the side of a cell of Chipmunk's hash, in which what is large takes only so many
 CELLS_PER_SHAPE, CELLS_PER_WALL = 4, 64
 HASH_SIZES = 5, 13, 23, 47, 97, 193, 389, 769, 1543, 3079, 6151, 12289  # of the hashes of Chipmunk
@@ -129,8 +128,7 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
 def _region(kind: ThingKind, places: Mapping[str, range]) -> Row:
     """The columns of what a thing is placed within: the rows of a zone's copies, or two corners."""
     if isinstance(kind.within, str):
-        zone = places[kind.within]
-        return {"is_within": bool(kind.within), "inside": zone.start, "insides": len(zone)}
+        return {"is_within": bool(kind.within), **span("inside", places[kind.within])}
     (left, below), (right, above) = kind.within
     return {"is_within": True, "left": left, "right": right, "below": below, "above": above}
 
@@ -150,9 +148,8 @@ def presence_rows(task: Task, programs: Programs) -> Array:
         step = len(its) if thing.kind.is_obstacle and not thing.many else 1
         for copy, first in enumerate(its[:: max(1, step)]):
             if program := thing.presence(copy):
-                when, whens = programs.add(program)
                 about = {"thing": -1, "box": first, "boxes": step} if thing.kind.is_obstacle else {"thing": first}
-                rows.append({**about, "when": when, "whens": whens})
+                rows.append({**about, **programs.columns(program, "when", "whens")})
     return records(rows, codes.PRESENCE)
 
 
@@ -202,9 +199,8 @@ def _aim(kind: Any, places: Mapping[str, range]) -> Row:
 
     That is the nearest of `afters` things from the thing `after` on, or the robot with none of them.
     """
-    after = places.get(kind.thing, NOWHERE)
     aim = bool(kind.seeks) - bool(kind.flees)
-    return {"aim": aim, "range": kind.range, "after": after.start, "afters": len(after)}
+    return {"aim": aim, "range": kind.range, **span("after", places.get(kind.thing, NOWHERE))}
 
 
 def walker_rows(task: Task, dt: float, parameters: Parameters, programs: Programs) -> dict[str, Array]:
@@ -245,10 +241,9 @@ def measure_rows(task: Task, parameters: Parameters) -> tuple[Array, int]:
     rows: list[Row] = []
     ring = 0
     for measure in task.measures:
-        about, of = places[measure.thing], places[measure.other]
         rows.append({
-            "kind": codes.MEASURE_CODES[names()[type(measure)]], "thing": about.start, "things": len(about),
-            "of": of.start, "ofs": len(of),
+            "kind": codes.MEASURE_CODES[names()[type(measure)]],
+            **span("thing", places[measure.thing]), **span("of", places[measure.other]),
             "over": measure.over, "ring": ring if measure.over else 0, "beyond": measure.beyond,
         })  # fmt: skip
         ring += measure.over
@@ -266,7 +261,7 @@ def event_rows(task: Task) -> tuple[Array, int, int]:
         own, code = event.row(task.scene), codes.EVENT_CODES[names()[type(event)]]
         about, into = places[event.thing], places[event.other]
         rows.append({
-            "kind": code, "thing": about.start, "things": len(about), "to": into.start, "tos": len(into),
+            "kind": code, **span("thing", about), **span("to", into),
             "patch": 1.0, "board": board, **own, "arrival": arrivals, "left": windows,
             "after": numbers[event.within.of] if event.within else -1,
             "window": event.within.ticks + 1 if event.within else 0,
@@ -281,12 +276,11 @@ def end_rows(task: Task, programs: Programs) -> Array:
     """Rows of END; their conditions go to `programs`."""
     rows, boxes = list[Row](), {"": NOWHERE, **boxes_by_name(task)}
     for end in task.ends:
-        when, whens = programs.add(end.when or ())
-        event = -1 if end.event is None else end.event
         opened = boxes[end.opens]
         rows.append({
-            "event": event, "times": end.times, "when": when, "whens": whens, "succeeds": end.succeeds,
+            "event": -1 if end.event is None else end.event, "times": end.times, "succeeds": end.succeeds,
             "is_end": not end.opens, "box": opened.start, "boxes": len(opened),
+            **programs.columns(end.when, "when", "whens"),
         })  # fmt: skip
     return records(rows, codes.END)
 
@@ -295,12 +289,10 @@ def reward_rows(task: Task, programs: Programs) -> Array:
     """Rows of REWARD; what they pay, and where, goes to `programs`."""
     rows: list[Row] = []
     for reward in task.rewards:
-        code, length = programs.add(reward.amount)
-        when, whens = programs.add(reward.when or ())
         each, eachs = reward.each or (0, 0)
         rows.append({
-            "code": code, "length": length, "on": -1 if reward.on is None else reward.on,
-            "each": each, "eachs": eachs, "when": when, "whens": whens,
+            "on": -1 if reward.on is None else reward.on, "each": each, "eachs": eachs,
+            **programs.columns(reward.amount, "code", "length"), **programs.columns(reward.when, "when", "whens"),
         })  # fmt: skip
     return records(rows, codes.REWARD)
 

@@ -8,14 +8,13 @@ all above a skill have sent theirs and before the skill runs.
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.engine.changes import Change, Changed, ChangeError, calm_ticks, in_tick
 from mindrun.engine.think import in_scopes
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, COSINE, LOOSE_ROWS, SINE, SIZE, THING_ROWS, TURN
+from mindrun.numbers.arrays import Array, Doubles, Integers, Bools, Singles
 from mindrun.numbers.short_repr import ShortRepr
 from mindrun.sim.codes import Tables
 from mindrun.sim.lanes.advance import before
@@ -23,7 +22,6 @@ from mindrun.sim.procedures import Memories
 from mindrun.sim.rollout import Rollout, Tile
 from mindrun.sim.state import FIRST_LOOSE, FIXED, ROBOT, Jobs, State, empty_state, recorded
 
-Array = NDArray[Any]
 Advance = Callable[[Tile, Jobs, int], int]
 CHUNK_TICKS, CHUNK_BYTES = 256, 1 << 22  # of a run at once, or fewer where a tick is large
 SCALAR_COLUMNS = 3  # held, battery and touching, after the doubles
@@ -44,19 +42,19 @@ class Ticks(ShortRepr):
     in the tick; `lines` the sum of each reward line so far.
     """
 
-    body: NDArray[np.float64]
-    things: NDArray[np.float64]
-    turned: NDArray[np.float64]
-    held: NDArray[np.int64]
-    battery: NDArray[np.float64]
-    touching: NDArray[np.bool_]
-    readings: NDArray[np.float32]
-    influence: NDArray[np.float32]
-    commands: NDArray[np.float32]
-    acting: NDArray[np.float32]
-    grip: NDArray[np.float64]
-    events: NDArray[np.int64]
-    lines: NDArray[np.float64]
+    body: Doubles
+    things: Doubles
+    turned: Doubles
+    held: Integers
+    battery: Doubles
+    touching: Bools
+    readings: Singles
+    influence: Singles
+    commands: Singles
+    acting: Singles
+    grip: Doubles
+    events: Integers
+    lines: Doubles
 
     def __len__(self) -> int:
         return len(self.body)
@@ -67,19 +65,19 @@ class Moment(ShortRepr):
     """The world and the mind after one tick, as a row of `Ticks`; `tick` counts from 1 since the run began."""
 
     tick: int
-    body: NDArray[np.float64]
-    things: NDArray[np.float64]
-    turned: NDArray[np.float64]
+    body: Doubles
+    things: Doubles
+    turned: Doubles
     held: int
     battery: float
     touching: bool
-    readings: NDArray[np.float32]
-    influence: NDArray[np.float32]
-    commands: NDArray[np.float32]
-    acting: NDArray[np.float32]
-    grip: NDArray[np.float64]
-    events: NDArray[np.int64]
-    lines: NDArray[np.float64]
+    readings: Singles
+    influence: Singles
+    commands: Singles
+    acting: Singles
+    grip: Doubles
+    events: Integers
+    lines: Doubles
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -91,11 +89,11 @@ class Trace(ShortRepr):
     lane's by then.
     """
 
-    boxes: NDArray[np.float64]
-    begin: NDArray[np.float64]  # the robot's x, y, angle
-    things: NDArray[np.float64]
-    turned: NDArray[np.float64]
-    drawn: NDArray[np.float64]
+    boxes: Doubles
+    begin: Doubles  # the robot's x, y, angle
+    things: Doubles
+    turned: Doubles
+    drawn: Doubles
     chunks: Iterator[Ticks]
     moments: Iterator[Moment]
     jobs: Jobs
@@ -115,9 +113,7 @@ class Touch:
     thing: int
 
 
-def trace(
-    rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None, changes: Sequence[Change] = ()
-) -> Trace:
+def trace(rollout: Rollout, seed: int, genome: Singles | None = None, changes: Sequence[Change] = ()) -> Trace:
     """The run that `rollout.score` would make of a genome and a seed; with `changes`, the run that these make of it."""
     genomes = np.zeros((1, 0), np.float32) if genome is None else genome[None].astype(np.float32)
     tile, jobs = _begun(rollout, genomes, seed)
@@ -148,16 +144,16 @@ def joined(chunks: Iterable[Ticks]) -> Ticks:
     return Ticks(**{name: np.concatenate(parts) for name, parts in columns.items()})
 
 
-def things_in(rollout: Rollout, state: State, lane: int) -> NDArray[np.float64]:
+def things_in(rollout: Rollout, state: State, lane: int) -> Doubles:
     """The x, y and size of each thing in a lane's world [things, 3]."""
-    things: NDArray[np.float64] = state.world.things[: THING_ROWS * len(rollout.tables.things), lane]
+    things: Doubles = state.world.things[: THING_ROWS * len(rollout.tables.things), lane]
     return things.reshape(-1, THING_ROWS)[:, : SIZE + 1].copy()
 
 
-def turned_in(rollout: Rollout, state: State, lane: int) -> NDArray[np.float64]:
+def turned_in(rollout: Rollout, state: State, lane: int) -> Doubles:
     """The angle by which each thing in a lane's world has turned [things]."""
     here, world = slice(lane, lane + 1), state.world
-    found: NDArray[np.float64] = _turned(rollout, world.loose[:, here].T, world.direction[:, here].T)[0]
+    found: Doubles = _turned(rollout, world.loose[:, here].T, world.direction[:, here].T)[0]
     return found
 
 
@@ -176,7 +172,7 @@ def last_touch(rollout: Rollout, state: State) -> Touch | None:
     return Touch(float(ahead), float(aside), int(box), int(pair["thing"]))
 
 
-def _begun(rollout: Rollout, genomes: NDArray[np.float32], seed: int) -> tuple[Tile, Jobs]:
+def _begun(rollout: Rollout, genomes: Singles, seed: int) -> tuple[Tile, Jobs]:
     """A tile of one lane in which a run begins."""
     tile, jobs = rollout.tile(1), rollout.jobs(genomes, np.array([seed], np.uint64))
     rollout.fill(tile, jobs)
@@ -258,7 +254,7 @@ def _split(columns: Array, arrays: Sequence[Array]) -> list[Array]:
     return np.split(columns.copy(), np.cumsum([len(array) for array in arrays]), axis=1)
 
 
-def _turned(rollout: Rollout, loose: Array, direction: Array) -> NDArray[np.float64]:
+def _turned(rollout: Rollout, loose: Array, direction: Array) -> Doubles:
     """The angle by which each thing has turned [ticks, things], from the rows of what is loose and of what wanders."""
     found = np.zeros((len(loose), len(rollout.tables.things)))
     found[:, rollout.tables.loose["thing"]] = loose[:, TURN::LOOSE_ROWS][:, : len(rollout.tables.loose)]

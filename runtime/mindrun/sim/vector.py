@@ -6,6 +6,7 @@ its scalar twin, so a result does not depend on the width.
 
 import operator
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from llvmlite import ir
@@ -13,7 +14,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic, models, overload, register_model
 
-from mindrun.numbers.arithmetic import A1, A3, A5, A7, A9, A11, A13, B0, B2, B4, B6, HALF, LANES, SIGMOID_LIMIT
+from mindrun.numbers.arithmetic import DENOMINATOR, HALF, LANES, LIMIT, NUMERATOR
 
 _FLOAT = ir.FloatType()
 _VECTOR = ir.VectorType(_FLOAT, LANES)
@@ -100,8 +101,8 @@ _operation(lambda builder, a, b: builder.fadd(a, b), operator.add)
 _operation(lambda builder, a, b: builder.fmul(a, b), operator.mul)
 _operation(lambda builder, a, b: builder.fdiv(a, b), operator.truediv)
 _operation(lambda builder, a, b: builder.fsub(a, b), operator.sub)
-lowest = _operation(lambda builder, a, b: builder.select(builder.fcmp_ordered("<", a, b), a, b))
-highest = _operation(lambda builder, a, b: builder.select(builder.fcmp_ordered(">", a, b), a, b))
+lowest = _operation(lambda builder, a, b: _chosen(builder, "<", a, b))
+highest = _operation(lambda builder, a, b: _chosen(builder, ">", a, b))
 
 
 @intrinsic
@@ -133,30 +134,26 @@ def sigmoids(typingctx, *values):
 
 
 def _sigmoids(builder: Any, xs: Any) -> Any:
-    def number(value: Any) -> Any:
-        return ir.Constant(_VECTOR, [float(value)] * LANES)
-
-    def plus(left: Any, right: Any) -> Any:
-        return [builder.fadd(a, b) for a, b in zip(left, right, strict=True)]
-
-    def times(left: Any, right: Any) -> Any:
-        return [builder.fmul(a, b) for a, b in zip(left, right, strict=True)]
+    def each(make: Any, *columns: Any) -> Any:
+        return [make(*values) for values in zip(*columns, strict=True)]
 
     def all_of(value: Any) -> Any:
-        return [number(value)] * len(xs)
+        return [ir.Constant(_VECTOR, [float(value)] * LANES)] * len(xs)
 
-    def polynomial(top: Any, *rest: Any) -> Any:
-        sums = all_of(top)
+    def polynomial(*coefficients: Any) -> Any:
+        top, *rest = map(all_of, reversed(coefficients))
         for coefficient in rest:
-            sums = plus(times(sums, ys), all_of(coefficient))
-        return sums
+            top = each(builder.fadd, each(builder.fmul, top, ys), coefficient)
+        return top
 
-    low, high = number(-SIGMOID_LIMIT), number(SIGMOID_LIMIT)
-    xs = times(xs, all_of(HALF))
-    xs = [builder.select(builder.fcmp_ordered(">", x, low), x, low) for x in xs]
-    xs = [builder.select(builder.fcmp_ordered("<", x, high), x, high) for x in xs]
-    ys = times(xs, xs)
-    above = times(polynomial(A13, A11, A9, A7, A5, A3, A1), xs)
-    below = polynomial(B6, B4, B2, B0)
-    quotients = [builder.fdiv(a, b) for a, b in zip(above, below, strict=True)]
-    return plus(all_of(HALF), times(all_of(HALF), quotients))
+    xs = each(builder.fmul, xs, all_of(HALF))
+    xs = each(partial(_chosen, builder, ">"), xs, all_of(-LIMIT))
+    xs = each(partial(_chosen, builder, "<"), xs, all_of(LIMIT))
+    ys = each(builder.fmul, xs, xs)
+    above, below = each(builder.fmul, polynomial(*NUMERATOR), xs), polynomial(*DENOMINATOR)
+    return each(builder.fadd, all_of(HALF), each(builder.fmul, all_of(HALF), each(builder.fdiv, above, below)))
+
+
+def _chosen(builder: Any, sign: str, left: Any, right: Any) -> Any:
+    """The left number in the lanes where it is larger, or smaller, as the sign says; else the right one."""
+    return builder.select(builder.fcmp_ordered(sign, left, right), left, right)

@@ -7,16 +7,13 @@ from mindrun.numbers.arithmetic import (
     HALF,
     ONE,
     SINE,
-    SPEED_X,
-    SPEED_Y,
-    SPIN,
     ZERO,
     F,
-    X,
-    Y,
     clamp,
     finite,
     in_claw,
+    middle_of,
+    motion_of,
     place_of,
     put_thing,
     size_of,
@@ -113,8 +110,9 @@ def stick(tables: Tables, state: State, i: int, lanes: int) -> None:
     world, actuator, body, heading = state.world, tables.actuators[i], state.world.body, state.world.heading
     commands, kept, starts = world.acting[i], world.grip[i], world.numbers[actuator.starts]
     for lane in range(lanes):
-        ahead = body[SPEED_X, lane] * heading[COSINE, lane] + body[SPEED_Y, lane] * heading[SINE, lane]
-        rolls = abs(ahead + actuator.arm * body[SPIN, lane]) >= STANDING_UNITS
+        vx, vy, spin = motion_of(body, lane)
+        ahead = vx * heading[COSINE, lane] + vy * heading[SINE, lane]
+        rolls = abs(ahead + actuator.arm * spin) >= STANDING_UNITS
         starts_now = abs(2.0 * np.float64(commands[lane]) - 1.0) >= starts[lane]
         share = kept[lane] if actuator.is_slipping else 1.0
         kept[lane] = share if rolls or starts_now else 0.0
@@ -150,7 +148,7 @@ def has_room(tables, world, i, lane):
     """True if nothing solid is between the robot and the rim of item i in its claw, or in the item's way there."""
     hold, cosine, sine = tables.things[i].hold, world.heading[COSINE, lane], world.heading[SINE, lane]
     x, y = place_of(world.things, i, lane)
-    half, own_x, own_y = size_of(world.things, i, lane) / 2, world.body[X, lane], world.body[Y, lane]
+    half, (own_x, own_y) = size_of(world.things, i, lane) / 2, middle_of(world.body, lane)
     to_x, to_y = own_x + cosine * hold, own_y + sine * hold
     for from_x, from_y in ((own_x, own_y), (x, y)):
         if is_barred(world.boxes, tables.world[0], from_x, from_y, to_x, to_y, CLOSED_UNITS, lane):
@@ -170,5 +168,6 @@ def carry(world, kinds, lanes):
     for lane in range(lanes):
         if world.held[lane] >= 0:
             ahead = kinds[world.held[lane]].hold
-            x, y = body[X, lane] + heading[COSINE, lane] * ahead, body[Y, lane] + heading[SINE, lane] * ahead
+            x, y = middle_of(body, lane)
+            x, y = x + heading[COSINE, lane] * ahead, y + heading[SINE, lane] * ahead
             put_thing(world.things, world.held[lane], x, y, lane)

@@ -1,6 +1,6 @@
 """Ticks of all lanes: the stages in their order, in two halves, between which procedures may run in Python."""
 
-from mindrun.numbers.arithmetic import X, Y
+from mindrun.numbers.arithmetic import X, Y, middle_of
 from mindrun.sim.codes import GOING_ON, Tables
 from mindrun.sim.lanes.act import act, recall
 from mindrun.sim.lanes.judge import begin_measures, judge
@@ -39,7 +39,7 @@ def after(tables: Tables, state: State, jobs: Jobs, interrupt: int) -> None:
     lanes, world = jobs.lanes[0], state.world
     act(tables, state, lanes)
     for lane in range(lanes):
-        world.begun_at[X, lane], world.begun_at[Y, lane] = world.body[X, lane], world.body[Y, lane]
+        world.begun_at[X, lane], world.begun_at[Y, lane] = middle_of(world.body, lane)
     begin_measures(tables, state, lanes)
     step(tables, state, lanes)
     conclude(tables, state, jobs, interrupt)
@@ -47,10 +47,7 @@ def after(tables: Tables, state: State, jobs: Jobs, interrupt: int) -> None:
 
 @unit
 def conclude(tables: Tables, state: State, jobs: Jobs, interrupt: int) -> None:
-    """Judge a step, record it where there is room, and recall; then end the runs that are over.
-
-    Their lanes write their result and begin the next job.
-    """
+    """Judge a step, record it where there is room, and recall; then end the runs that are over."""
     lanes, clock, world = jobs.lanes[0], jobs.clock[0], state.world
     judge(tables, state, lanes, clock, interrupt)
     record(state, jobs)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
-from mindrun.numbers.arithmetic import BOX_COLUMNS, COSINE, SINE, X, Y, distance_of, inside, place_of
+from mindrun.numbers.arithmetic import BOX_COLUMNS, COSINE, SINE, X, Y, distance_of, inside, middle_of, place_of
 from mindrun.sim import codes
 from mindrun.sim.codes import DELIVERY, GOING_ON, LEAVE, REACH, Tables
 from mindrun.sim.lanes.reaching import arrivals, become, begun_of, cross, meet
@@ -22,8 +22,7 @@ def judge(tables: Tables, state: State, lanes: int, clock: int, interrupt: int) 
         drain(tables, world, lanes)
     begun = meet(tables, world, lanes)
     for i in range(len(tables.events)):
-        out = judged.events[i]
-        judged.happened[i] = notice(tables, state, i, out, lanes)
+        judged.happened[i] = notice(tables, state, i, judged.events[i], lanes)
     for i in range(len(tables.events)):
         if tables.events[i].after >= 0:
             judged.happened[i] = keep_soon(tables, state, i, lanes)
@@ -39,7 +38,7 @@ def judge(tables: Tables, state: State, lanes: int, clock: int, interrupt: int) 
     oldest = PLACE_ROWS * (clock % TRAIL_TICKS)
     for lane in range(lanes):
         world.tick[lane] += 1
-        world.trail[oldest + X, lane], world.trail[oldest + Y, lane] = world.begun_at[X, lane], world.begun_at[Y, lane]
+        world.trail[oldest + X, lane], world.trail[oldest + Y, lane] = middle_of(world.begun_at, lane)
 
 
 @unit_where(lambda tables: (tables.events["after"] >= 0).any())
@@ -48,12 +47,12 @@ def keep_soon(tables: Tables, state: State, i: int, lanes: int) -> int:
 
     Return the number of lanes in which it does.
     """
-    event, judged, count = tables.events[i], state.judge, 0
+    event, judged = tables.events[i], state.judge
     for lane in range(lanes):
         left = max(0, judged.left[event.left, lane] - 1)
         judged.left[event.left, lane] = left = event.window if judged.events[event.after, lane] > 0.0 else left
         judged.events[i, lane] = judged.events[i, lane] if left > 0 else 0.0
-        count += 1 if judged.events[i, lane] > 0.0 else 0
+    count: int = count_positive(judged.events[i], lanes)
     return count
 
 
@@ -65,7 +64,8 @@ def drain(tables: Tables, world: WorldState, lanes: int) -> None:
         charged = False
         for i in range(len(tables.things)):
             if tables.things[i].kind == codes.POWER:
-                charged = charged or inside(world.things, i, world.body[X, lane], world.body[Y, lane], lane)
+                x, y = middle_of(world.body, lane)
+                charged = charged or inside(world.things, i, x, y, lane)
         left = world.battery[lane] + charge if charged else world.battery[lane] - drained
         world.battery[lane] = min(1.0, max(0.0, left))
 
@@ -95,9 +95,14 @@ def notice(tables, state, i, out, lanes):
             out[lane] = 1 if world.battery[lane] == 0.0 else 0
     elif event.kind != codes.ITS_END:  # which stands there already
         out[:lanes] = 0  # a success comes later in the tick
+    return count_positive(out, lanes)
+
+
+def count_positive(row, lanes):
+    """The number of lanes in which a row is above zero."""
     count = 0
     for lane in range(lanes):
-        count += 1 if out[lane] > 0 else 0
+        count += 1 if row[lane] > 0.0 else 0
     return count
 
 
@@ -132,7 +137,7 @@ def find_paid(tables, state, line, paid, each, lanes):
 
     Return the number of lanes in which it is paid.
     """
-    holds, count = state.mind.stack[0], 0
+    holds = state.mind.stack[0]
     if line.on >= 0:
         for lane in range(lanes):
             paid[lane] = state.judge.events[line.on, lane]
@@ -142,9 +147,7 @@ def find_paid(tables, state, line, paid, each, lanes):
         run_program(tables, state, line.when, line.whens, each, lanes, True)
         for lane in range(lanes):
             paid[lane] = paid[lane] if holds[lane] > 0.0 else 0.0
-    for lane in range(lanes):
-        count += 1 if paid[lane] > 0.0 else 0
-    return count
+    return count_positive(paid, lanes)
 
 
 def meet_end(tables, state, end, i, lanes, interrupt):
@@ -163,15 +166,13 @@ def meet_end(tables, state, end, i, lanes, interrupt):
     if not end.is_end:
         open_boxes(tables, state, i, lanes)
         return
-    met = 0
     for lane in range(lanes):
         if judged.paid[lane] > 0.0 and run.met[lane] == GOING_ON:
             run.met[lane] = i
             run.ended[lane] = i if interrupt else run.ended[lane]
-            met += 1
         else:
             judged.paid[lane] = 0.0
-    if met > 0 and end.succeeds:
+    if end.succeeds:
         mark_success(tables, judged, lanes)
 
 
@@ -258,8 +259,7 @@ def progress(out, now, body, things, measure, lanes):
     0 where all have vanished. `now` is room for the square of what is left of the distance.
     """
     before = out
-    for lane in range(lanes):
-        before[lane], now[lane] = np.nan, np.nan
+    before[:lanes], now[:lanes] = np.nan, np.nan
     for i in range(measure.thing, measure.thing + measure.things):
         for lane in range(lanes):
             x, y = place_of(things, i, lane)
@@ -285,10 +285,7 @@ def change(tables: Tables, state: State, i: int, lanes: int, clock: int) -> None
     """Compute measure i, the changes of each side's commands over the last ticks, beyond a share: the paper's ΣΔ."""
     commands, judged, measure = state.mind.commands, state.judge, tables.measures[i]
     out, now = judged.measures[i], measure.ring + clock % measure.over
-    for lane in range(lanes):
-        judged.left_changes[now, lane] = 0.0
-        judged.right_changes[now, lane] = 0.0
-        out[lane] = 0.0
+    judged.left_changes[now, :lanes], judged.right_changes[now, :lanes], out[:lanes] = 0.0, 0.0, 0.0
     for k in range(len(tables.actuators)):
         actuator = tables.actuators[k]
         if actuator.kind == codes.PUSH:
@@ -297,8 +294,7 @@ def change(tables: Tables, state: State, i: int, lanes: int, clock: int) -> None
                 changes[lane] += abs(np.float64(commands[k, lane]) - np.float64(judged.last_commands[k, lane]))
     varied = judged.paid  # which has nothing in it yet
     for changes in (judged.left_changes, judged.right_changes):
-        for lane in range(lanes):
-            varied[lane] = 0.0
+        varied[:lanes] = 0.0
         for k in range(measure.ring, measure.ring + measure.over):
             for lane in range(lanes):
                 varied[lane] += changes[k, lane]

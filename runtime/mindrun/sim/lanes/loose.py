@@ -12,18 +12,16 @@ from mindrun.numbers.arithmetic import (
     PUSHED_SPIN,
     PUSHED_X,
     PUSHED_Y,
-    SPEED_X,
-    SPEED_Y,
     TURN,
     X,
     Y,
+    length,
+    next_middle,
     place_of,
     put_thing,
-    size_of,
 )
 from mindrun.sim.codes import HALF_DIAGONAL, Tables
-from mindrun.sim.lanes.aim import seek
-from mindrun.sim.lanes.solid import extent_of, is_free, within
+from mindrun.sim.lanes.solid import drift_of, extent_of, is_free, loose_place, loose_size, turn_of, within
 from mindrun.sim.state import FIRST_LOOSE, PLACE_ROWS, ContactState, WorldState
 from mindrun.sim.units import unit_where
 
@@ -44,16 +42,15 @@ def slow_down(tables: Tables, world: WorldState, contact: ContactState, lane: in
     for i in range(len(tables.loose)):
         if world.still[i, lane] < SETTLED_TICKS:
             contact.solids[lane, FIRST_LOOSE + i].is_asleep = 0
-            row, thing = LOOSE_ROWS * i, tables.loose[i].thing
-            slower = world.numbers[tables.loose[i].slower, lane]
-            vx, vy = loose[row + PUSHED_X, lane] * slower, loose[row + PUSHED_Y, lane] * slower
-            spin = loose[row + PUSHED_SPIN, lane] * slower
+            thing, slower = tables.loose[i].thing, world.numbers[tables.loose[i].slower, lane]
+            vx, vy, spin = drift_of(loose, i, lane)
+            vx, vy, spin = vx * slower, vy * slower, spin * slower
             x, y = place_of(world.things, thing, lane)
-            there = within(x + vx * dt, y + vy * dt, loose[row + TURN, lane] + spin * dt)
+            there = within(x + vx * dt, y + vy * dt, turn_of(loose, i, lane) + spin * dt)
             if not there:  # gone, or beyond all places
                 put_thing(world.things, thing, np.nan, np.nan, lane)
             rests = is_at_rest(vx, vy, spin) or not there
-            put_motion(loose, row, vx, vy, spin, rests, lane)
+            put_drift(loose, i, vx, vy, spin, rests, lane)
             settles = rests and (tables.loose[i].aim == 0 or not there)
             world.still[i, lane] = (world.still[i, lane] + 1 if there else SETTLED_TICKS) if settles else 0
             restless += 1
@@ -62,19 +59,41 @@ def slow_down(tables: Tables, world: WorldState, contact: ContactState, lane: in
     world.restless[lane] = restless
 
 
+def seek(world, row, x, y, lane):
+    """The way along x and y that something at a place wants to go in this tick, as its row of a table says.
+
+    It leads straight towards the nearest that it seeks and not past that, or away from what it flees. It is no number
+    where that is too far away, or where there is no direction away from it.
+    """
+    dx, dy, far = 0.0, 0.0, np.inf
+    if row.afters == 0:
+        dx, dy = world.body[X, lane] - x, world.body[Y, lane] - y
+        far = length(dx, dy)
+    for other in range(row.after, row.after + row.afters):
+        its_x, its_y = place_of(world.things, other, lane)
+        away = length(its_x - x, its_y - y)
+        if other != row.thing and away < far:  # one that has vanished is no number away
+            dx, dy, far = its_x - x, its_y - y, away
+    if not far <= row.range or (far == 0.0 and row.aim < 0):
+        return np.nan, np.nan
+    share = row.aim * world.numbers[row.step, lane] / far if far > 0.0 else 0.0
+    share = min(share, 1.0)
+    return dx * share, dy * share
+
+
 @unit_where(lambda tables: bool(tables.loose["aim"].any()))
 def drive(tables: Tables, world: WorldState, i: int, lane: int) -> None:
     """Write down the force by which loose thing i drives itself, none where it knows no way.
 
     Of at most its thrust, it is the one by which the next tick, once it has been damped, takes it along its way.
     """
-    loose, row, dt = tables.loose[i], LOOSE_ROWS * i, tables.world[0].dt
+    loose, dt = tables.loose[i], tables.world[0].dt
     x, y = next_place_of(tables, world, i, lane)
     dx, dy = seek(world, loose, x, y, lane)
     slower, mass = world.numbers[loose.slower, lane], mass_of(tables, world, i, lane)
-    along = (dx / dt / slower - world.loose[row + PUSHED_X, lane]) * mass / dt
-    across = (dy / dt / slower - world.loose[row + PUSHED_Y, lane]) * mass / dt
-    wanted, most = np.sqrt(along * along + across * across), world.numbers[loose.thrust, lane]
+    vx, vy, _ = drift_of(world.loose, i, lane)
+    along, across = (dx / dt / slower - vx) * mass / dt, (dy / dt / slower - vy) * mass / dt
+    wanted, most = length(along, across), world.numbers[loose.thrust, lane]
     share = most / wanted if wanted > most else 1.0
     if np.isnan(wanted):
         along, across = 0.0, 0.0
@@ -83,8 +102,8 @@ def drive(tables: Tables, world: WorldState, i: int, lane: int) -> None:
 
 def mass_of(tables, world, i, lane):
     """The mass of loose thing i."""
-    body = tables.loose[i]
-    density, size = world.numbers[body.density, lane], size_of(world.things, body.thing, lane)
+    body, size = tables.loose[i], loose_size(tables, world, i, lane)
+    density = world.numbers[body.density, lane]
     return density * np.pi * (size / 2 * (size / 2)) if body.is_round else density * (size * size)
 
 
@@ -93,8 +112,9 @@ def is_at_rest(vx, vy, spin):
     return abs(vx) < REST_SPEED and abs(vy) < REST_SPEED and abs(spin) < REST_SPEED
 
 
-def put_motion(loose, row, vx, vy, spin, rests, lane):
-    """Set the velocity and the spin of the loose thing whose rows begin at `row`; 0 if it rests."""
+def put_drift(loose, i, vx, vy, spin, rests, lane):
+    """Set the velocity and the spin of loose thing i; 0 if it rests."""
+    row = LOOSE_ROWS * i
     loose[row + PUSHED_X, lane] = 0.0 if rests else vx
     loose[row + PUSHED_Y, lane] = 0.0 if rests else vy
     loose[row + PUSHED_SPIN, lane] = 0.0 if rests else spin
@@ -102,9 +122,10 @@ def put_motion(loose, row, vx, vy, spin, rests, lane):
 
 def next_place_of(tables, world, i, lane):
     """The x and y of loose thing i after this tick, if it touches nothing."""
-    row, dt = LOOSE_ROWS * i, tables.world[0].dt
-    x, y = place_of(world.things, tables.loose[i].thing, lane)
-    return x + world.loose[row + PUSHED_X, lane] * dt, y + world.loose[row + PUSHED_Y, lane] * dt
+    dt = tables.world[0].dt
+    x, y = loose_place(tables, world, i, lane)
+    vx, vy, _ = drift_of(world.loose, i, lane)
+    return x + vx * dt, y + vy * dt
 
 
 @OF_LOOSE
@@ -138,9 +159,8 @@ def approach_loose(tables: Tables, world: WorldState, contact: ContactState, lan
         of_size = 0.5 if tables.loose[i].is_round else HALF_DIAGONAL
         for lane in range(lanes):
             x, y = next_place_of(tables, world, i, lane)
-            dx = x - (body[X, lane] + body[SPEED_X, lane] * dt)
-            dy = y - (body[Y, lane] + body[SPEED_Y, lane] * dt)
-            far = np.sqrt(dx * dx + dy * dy) - of_size * size_of(world.things, tables.loose[i].thing, lane)
+            own_x, own_y = next_middle(body, dt, lane)
+            far = length(x - own_x, y - own_y) - of_size * loose_size(tables, world, i, lane)
             gap[lane] = far if far < gap[lane] else gap[lane]
 
 
@@ -150,13 +170,12 @@ def slide(tables: Tables, world: WorldState, lane: int) -> None:
     loose, dt = world.loose, tables.world[0].dt
     for i in range(len(tables.loose)):
         if world.still[i, lane] == 0:
-            row = LOOSE_ROWS * i
             x, y = next_place_of(tables, world, i, lane)
             put_thing(world.things, tables.loose[i].thing, x, y, lane)
-            loose[row + TURN, lane] += loose[row + PUSHED_SPIN, lane] * dt
+            vx, vy, spin = drift_of(loose, i, lane)
+            loose[LOOSE_ROWS * i + TURN, lane] += spin * dt
             if tables.loose[i].aim != 0:
                 mass_inv = 1.0 / mass_of(tables, world, i, lane)
-                vx = loose[row + PUSHED_X, lane] + world.drive[PLACE_ROWS * i + X, lane] * mass_inv * dt
-                vy = loose[row + PUSHED_Y, lane] + world.drive[PLACE_ROWS * i + Y, lane] * mass_inv * dt
-                spin = loose[row + PUSHED_SPIN, lane]
-                put_motion(loose, row, vx, vy, spin, is_at_rest(vx, vy, spin), lane)
+                vx += world.drive[PLACE_ROWS * i + X, lane] * mass_inv * dt
+                vy += world.drive[PLACE_ROWS * i + Y, lane] * mass_inv * dt
+                put_drift(loose, i, vx, vy, spin, is_at_rest(vx, vy, spin), lane)

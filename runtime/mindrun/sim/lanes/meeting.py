@@ -8,12 +8,13 @@ added last first.
 
 import numpy as np
 
-from mindrun.numbers.arithmetic import BOX_COLUMNS, box_of
+from mindrun.numbers.arithmetic import box_of
 from mindrun.sim.codes import PERSISTENCE_TICKS, WALL_COUNT, Tables
 from mindrun.sim.lanes.loose import OF_LOOSE
 from mindrun.sim.lanes.nearest_points import LEAST_NORMAL, farthest, nearest_points
 from mindrun.sim.lanes.placement import ENDLESS_UNITS
-from mindrun.sim.lanes.shapes import overlap, put_corners, put_held
+from mindrun.sim.lanes.solid import count_of
+from mindrun.sim.lanes.solids import overlap, put_corners, put_held
 from mindrun.sim.state import FIRST_LOOSE, FIXED, HELD, ROBOT, ContactState, WorldState
 from mindrun.sim.units import unit_where
 
@@ -50,7 +51,7 @@ def swap(order, i, k):
 
 def sides_of(tables, world, solids, number, lane):
     """The sides of a solid or, behind these, of a box or, behind these, of a wall: left, low, right, top."""
-    b, boxes = number - FIRST_LOOSE - len(tables.loose), world.boxes.shape[1] // BOX_COLUMNS
+    b, boxes = number - FIRST_LOOSE - len(tables.loose), count_of(world.boxes)
     if b < 0:
         return solids[number].left, solids[number].low, solids[number].right, solids[number].high
     if b >= boxes:
@@ -62,13 +63,8 @@ def sides_of(tables, world, solids, number, lane):
 def wall_of(x, y, wall):
     """The sides of a wall of an arena: left, low, right, top."""
     far_x, far_y = x + 2 * HALF_WALL_UNITS, y + 2 * HALF_WALL_UNITS
-    if wall == 0:
-        return -far_x, -far_y, -x, far_y
-    if wall == 1:
-        return x, -far_y, far_x, far_y
-    if wall == 2:
-        return -far_x, -far_y, far_x, -y
-    return -far_x, y, far_x, far_y
+    left, low = x if wall == 1 else -far_x, y if wall == 3 else -far_y
+    return left, low, -x if wall == 0 else far_x, -y if wall == 2 else far_y
 
 
 def lies_in(cell, left, low, right, top, slot):
@@ -91,7 +87,7 @@ def floor(number):
 
 
 KEY_RANGE = 1 << 26
-CORNER_HASH = np.uint64(3344921057)
+CORNER_HASH, NO_HASH = np.uint64(3344921057), np.uint64(0)  # the only contact of a circle has none
 OF_QUADRANGLES = unit_where(lambda tables: not tables.world[0]["is_round"] or not tables.loose["is_round"].all())
 
 
@@ -163,7 +159,7 @@ def find_close(tables, world, contact, a, lane):
     """Write down the boxes and walls that meet the rectangle around a solid; return how many do."""
     close, solid = contact.close[lane], contact.solids[lane, a]
     left, right, low, high = solid.left, solid.right, solid.low, solid.high
-    boxes, half_x, half_y = world.boxes.shape[1] // BOX_COLUMNS, tables.world[0].half_x, tables.world[0].half_y
+    boxes, half_x, half_y = count_of(world.boxes), tables.world[0].half_x, tables.world[0].half_y
     count = 0
     for b in range(boxes):
         x, y, wide, tall = box_of(world.boxes, b, lane)
@@ -189,11 +185,9 @@ def meet(contact, a, b, found, lane):
     touches, x, y, its_x, its_y, nx, ny = touch_circle(solids[a], solids[b])
     i = take_pair(contact, a, b, key, found, nx, ny, lane) if touches else -1
     if i >= 0:
-        pair, only = pairs[i], pairs[i].contacts[0]
-        if pair.count == 0:
-            only.along, only.across = 0.0, 0.0
-        pair.count = 1
-        put_contact(solids, pair, only, x, y, its_x, its_y)
+        along, across = recalled(pairs[i], NO_HASH)
+        pairs[i].count = 0
+        put_contact(solids, pairs[i], NO_HASH, along, across, x, y, its_x, its_y)
 
 
 def named(contact, a, lane):
@@ -249,9 +243,11 @@ def body_of(a):
     return ROBOT if a == HELD else a
 
 
-def put_contact(solids, pair, contact, x, y, its_x, its_y):
-    """Write the places of a contact, from the middles of both."""
-    own, other = solids[pair.own], solids[pair.other]
+def put_contact(solids, pair, known, along, across, x, y, its_x, its_y):
+    """Give a pair one more contact with a hash, its impulses and its places, from the middles of both."""
+    own, other, contact = solids[pair.own], solids[pair.other], pair.contacts[pair.count]
+    contact.hash, contact.along, contact.across = known, along, across
+    pair.count += 1
     contact.x, contact.y = x - own.middle_x, y - own.middle_y
     contact.its_x, contact.its_y = its_x - other.middle_x, its_y - other.middle_y
 
@@ -270,22 +266,30 @@ def meet_quadrangles(contact: ContactState, a: int, b: int, key: int, found: int
     at_c, at_d, at_e, at_f = cx * ny - cy * nx, dx * ny - dy * nx, ex * ny - ey * nx, fx * ny - fy * nx
     scale, its_scale = 1.0 / (at_d - at_c + LEAST_NORMAL), 1.0 / (at_f - at_e + LEAST_NORMAL)
     t, u = clamped((at_f - at_c) * scale), clamped((at_c - at_e) * its_scale)
-    x, y = cx * (1.0 - t) + dx * t, cy * (1.0 - t) + dy * t
-    its_x, its_y = ex * (1.0 - u) + fx * u, ey * (1.0 - u) + fy * u
+    x, y = on_way(cx, cy, dx, dy, t)
+    its_x, its_y = on_way(ex, ey, fx, fy, u)
     is_one = (its_x - x) * nx + (its_y - y) * ny <= 0.0
     t, u = clamped((at_e - at_c) * scale), clamped((at_d - at_e) * its_scale)
-    cx, cy, ex, ey = cx * (1.0 - t) + dx * t, cy * (1.0 - t) + dy * t, ex * (1.0 - u) + fx * u, ey * (1.0 - u) + fy * u
+    cx, cy = on_way(cx, cy, dx, dy, t)
+    ex, ey = on_way(ex, ey, fx, fy, u)
     is_other = (ex - cx) * nx + (ey - cy) * ny <= 0.0
     i = take_pair(contact, a, b, key, found, nx, ny, lane) if is_one or is_other else -1
     if i < 0:
         return
     pair = contact.pairs[lane, i]
     one, another = contact_hash(own.number, c, other.number, f), contact_hash(own.number, d, other.number, e)
-    remember(pair, is_one, is_other, one, another)
+    along, across = recalled(pair, one)
+    other_along, other_across = recalled(pair, another)
+    pair.count = 0
     if is_one:
-        put_contact(solids, pair, pair.contacts[0], x, y, its_x, its_y)
+        put_contact(solids, pair, one, along, across, x, y, its_x, its_y)
     if is_other:
-        put_contact(solids, pair, pair.contacts[pair.count - 1], cx, cy, ex, ey)
+        put_contact(solids, pair, another, other_along, other_across, cx, cy, ex, ey)
+
+
+def on_way(x, y, to_x, to_y, share):
+    """The place at a share of the way from one place to another."""
+    return x * (1.0 - share) + to_x * share, y * (1.0 - share) + to_y * share
 
 
 def edge(solid, nx, ny):
@@ -320,17 +324,6 @@ def contact_hash(number, i, its_number, k):
     return here * CORNER_HASH ^ there * CORNER_HASH
 
 
-def remember(pair, is_one, is_other, one, another):
-    """Give the contacts with these hashes the impulses of those that a pair has had, or none."""
-    along, across = recalled(pair, one)
-    other_along, other_across = recalled(pair, another)
-    pair.count = 0
-    if is_one:
-        put_impulses(pair, one, along, across)
-    if is_other:
-        put_impulses(pair, another, other_along, other_across)
-
-
 def recalled(pair, known):
     """The impulses of the contact of a pair with a hash, 0 if it has none."""
     along, across = 0.0, 0.0
@@ -338,10 +331,3 @@ def recalled(pair, known):
         if pair.contacts[k].hash == known:
             along, across = pair.contacts[k].along, pair.contacts[k].across
     return along, across
-
-
-def put_impulses(pair, known, along, across):
-    """Give a pair one more contact with a hash, and its impulses."""
-    contact = pair.contacts[pair.count]
-    contact.hash, contact.along, contact.across = known, along, across
-    pair.count += 1

@@ -9,13 +9,13 @@ import numpy as np
 from mindrun.graph.tasks import meets_robot
 from mindrun.numbers.arithmetic import (
     ANGLE,
-    BOX_COLUMNS,
     HALF_X,
     HALF_Y,
     LOOSE_ROWS,
     THING_ROWS,
     X,
     Y,
+    length,
     place_of,
     put_thing,
     resize_thing,
@@ -24,7 +24,7 @@ from mindrun.numbers.arithmetic import (
     uniform,
 )
 from mindrun.sim.codes import FAR, Tables
-from mindrun.sim.lanes.solid import is_clear, put_box
+from mindrun.sim.lanes.solid import count_of, is_clear, put_box
 from mindrun.sim.state import WorldState
 from mindrun.sim.units import unit
 
@@ -39,7 +39,7 @@ def draw(tables: Tables, world: WorldState, lane: int) -> None:
     Of each the first in the source come first.
     """
     boxes, walls, box = world.boxes[lane], tables.walls, len(tables.walls)
-    for b in range(len(boxes) // BOX_COLUMNS):
+    for b in range(count_of(world.boxes)):
         put_box(boxes, b, FAR, FAR, 0.0, 0.0)
     for b in range(len(walls)):
         put_box(boxes, b, walls[b, X], walls[b, Y], walls[b, HALF_X], walls[b, HALF_Y])
@@ -92,13 +92,18 @@ def choose(tables, world, i, is_begun, lane):
         fits = fit(tables, world, i, option, is_begun, lane)
         count = count + 1 if fits == best else 1 if fits > best else count
         best = max(best, fits)
-    left = min(int(uniform(world.random, lane, 0.0, count)), count - 1)
+    left = any_of(world.random, count, lane)
     for option in range(thing.option, thing.option + thing.options):
         if fit(tables, world, i, option, is_begun, lane) == best:
             if left == 0:
                 return tables.options[option, X], tables.options[option, Y]
             left -= 1
     return np.nan, np.nan  # never: one of them fits best
+
+
+def any_of(random, count, lane):
+    """A whole number from 0 to before `count`, each as probable."""
+    return min(int(uniform(random, lane, 0.0, count)), count - 1)
 
 
 def fit(tables, world, i, option, is_begun, lane):
@@ -120,7 +125,7 @@ def set_out(tables, world, i, lane):
     walker = tables.walkers[i]
     way = walker.way
     if walker.ways > 1:
-        way += min(int(uniform(world.random, lane, 0.0, walker.ways)), walker.ways - 1)
+        way += any_of(world.random, walker.ways, lane)
     first, places = tables.ways[way].first, tables.ways[way].places
     corner, far = first + walker.copy % places, 0.0
     if walker.is_anywhere:
@@ -144,8 +149,7 @@ def stretch(tables, world, corner, lane):
     """The length of a way from a corner to the next one."""
     x, y = at_drawn(world, tables.corners[corner], lane)
     to_x, to_y = at_drawn(world, tables.corners[tables.corners[corner].next], lane)
-    dx, dy = to_x - x, to_y - y
-    return np.sqrt(dx * dx + dy * dy)
+    return length(to_x - x, to_y - y)
 
 
 def appear(tables, world, i, lane):
@@ -166,7 +170,7 @@ def draw_grid(tables, world, obstacle, box, lane):
     middle_x, middle_y = (obstacle.columns - 1) / 2, (obstacle.rows - 1) / 2
     from_x, from_y = at_drawn(world, obstacle, lane)
     if obstacle.options > 0:
-        option = obstacle.option + min(int(uniform(random, lane, 0.0, obstacle.options)), obstacle.options - 1)
+        option = obstacle.option + any_of(random, obstacle.options, lane)
         from_x, from_y = tables.options[option, X], tables.options[option, Y]
     for row in range(obstacle.rows):
         for column in range(obstacle.columns):
@@ -192,7 +196,7 @@ def start(tables, world, lane):
     elif constants.half_x < ENDLESS_UNITS:
         best = 0
         for _ in range(MAX_TRIES):
-            x, y = uniform(random, lane, -room_x, room_x), uniform(random, lane, -room_y, room_y)
+            x, y = anywhere(random, -room_x, room_x, -room_y, room_y, lane)
             fits = 0
             if clear_of_all(tables, world, x, y, radius, lane):
                 fits = 1
@@ -203,6 +207,11 @@ def start(tables, world, lane):
             if fits == 3:
                 break
     body[ANGLE, lane] = constants.facing if constants.is_faced else uniform(random, lane, 0.0, 2 * np.pi)
+
+
+def anywhere(random, left, right, below, above, lane):
+    """A place drawn from a rectangle."""
+    return uniform(random, lane, left, right), uniform(random, lane, below, above)
 
 
 def start_room(half, radius):
@@ -223,17 +232,17 @@ def find(tables, world, low, high, room, extent, but, lane):
     best, best_x, best_y = 0, 0.0, 0.0
     for _ in range(MAX_TRIES):
         if left <= right:
-            x, y = uniform(world.random, lane, left, right), uniform(world.random, lane, below, above)
+            x, y = anywhere(world.random, left, right, below, above, lane)
         elif constants.half_x < ENDLESS_UNITS:
             room_x = max(constants.half_x - extent - 2 * constants.radius, 0.0)
             room_y = max(constants.half_y - extent - 2 * constants.radius, 0.0)
-            x, y = uniform(world.random, lane, -room_x, room_x), uniform(world.random, lane, -room_y, room_y)
+            x, y = anywhere(world.random, -room_x, room_x, -room_y, room_y, lane)
         else:
             sine, cosine = sine_cosine(uniform(world.random, lane, 0.0, 2 * np.pi))
             far = uniform(world.random, lane, low, high)
             x, y = body[X, lane] + far * cosine, body[Y, lane] + far * sine
         dx, dy = x - body[X, lane], y - body[Y, lane]
-        far = np.sqrt(dx * dx + dy * dy)
+        far = length(dx, dy)
         fits = 0
         if far > low - 1e-9 and far < high + 1e-9 and max(abs(dx), abs(dy)) >= room:
             fits = 1
@@ -260,7 +269,7 @@ def bounds(tables, world, extent, i, lane):
     if thing.insides > 0:
         zone = thing.inside
         if thing.insides > 1:
-            zone += min(int(uniform(world.random, lane, 0.0, thing.insides)), thing.insides - 1)
+            zone += any_of(world.random, thing.insides, lane)
         x, y = place_of(world.things, zone, lane)
         half = size_of(world.things, zone, lane) / 2
         if np.isnan(x):  # it stays where it is
@@ -279,9 +288,8 @@ def put(tables: Tables, world: WorldState, i: int, lane: int) -> None:
     thing = tables.things[i]
     if thing.options > 0 or (thing.walker >= 0 and tables.walkers[thing.walker].is_drawn):
         x, y = place_for(tables, world, i, True, lane)
-        put_at(tables, world, i, x, y, lane)
-        return
-    x, y = find(tables, world, thing.low, thing.high, 0.0, size_of(world.things, i, lane) / 2, i, lane)
+    else:
+        x, y = find(tables, world, thing.low, thing.high, 0.0, size_of(world.things, i, lane) / 2, i, lane)
     put_at(tables, world, i, x, y, lane)
 
 

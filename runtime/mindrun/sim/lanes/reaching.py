@@ -3,7 +3,7 @@
 Which things are reached does not depend on whether a line of the task names the event: measuring changes nothing.
 """
 
-from mindrun.numbers.arithmetic import X, Y, in_claw, inside, place_of, size_of
+from mindrun.numbers.arithmetic import in_claw, inside, middle_of, place_of, size_of
 from mindrun.sim.codes import LEAVE, MOVES, REACH, STAYS, VANISHES, ZONE, Tables
 from mindrun.sim.lanes.loose import SETTLED_TICKS
 from mindrun.sim.lanes.placement import succeed, vanish
@@ -25,7 +25,8 @@ def meet(tables, world, lanes):
                 begun += note(world.reached, i, lane, now)
         elif thing.is_reached:
             for lane in range(lanes):
-                begun += note(world.reached, i, lane, inside(things, i, body[X, lane], body[Y, lane], lane))
+                x, y = middle_of(body, lane)
+                begun += note(world.reached, i, lane, inside(things, i, x, y, lane))
         if thing.is_delivered:
             for lane in range(lanes):
                 if thing.settles and world.still[thing.loose, lane] >= SETTLED_TICKS:
@@ -56,14 +57,6 @@ def begun_of(out, rows, event, lanes):
     for i in range(event.thing, event.thing + event.things):
         for lane in range(lanes):
             out[lane] += 1 if rows[i, lane] == REACH_BEGUN else 0
-
-
-def begins(row, lanes):
-    """The number of lanes in which a thing begins to be reached, or delivered."""
-    count = 0
-    for lane in range(lanes):
-        count += 1 if row[lane] == REACH_BEGUN else 0
-    return count
 
 
 def arrivals(world, arrived, event, lane):
@@ -105,7 +98,7 @@ def is_crossing(events):
 
 def is_there(tables, world, event, k, lane):
     """True if the k-th thing of an event, or the robot where it names none, is at any of what the event is about."""
-    x, y, rim = world.body[X, lane], world.body[Y, lane], 0.0
+    (x, y), rim = middle_of(world.body, lane), 0.0
     if event.tos > 0:
         x, y = place_of(world.things, event.to + k, lane)
         rim = tables.world[0].claw + size_of(world.things, event.to + k, lane) / 2
@@ -125,8 +118,6 @@ def become(tables, world, lanes):
     for i in range(len(tables.things)):
         thing = tables.things[i]
         if thing.reached == STAYS and thing.delivered == STAYS:
-            continue
-        if begins(world.reached[i], lanes) + begins(world.delivered[i], lanes) == 0:
             continue
         for lane in range(lanes):
             outcome = thing.reached if world.reached[i, lane] == REACH_BEGUN else STAYS

@@ -2,18 +2,34 @@
 
 import numpy as np
 
+from mindrun.graph import draws
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
-from mindrun.numbers.arithmetic import ANGLE, COSINE, SINE, X, Y, sine_cosine
-from mindrun.sim.codes import DRAWN_NUMBER, GOING_ON, LEAVE, LOST, SERVO, VISIT, Tables
-from mindrun.sim.lanes.drawn_numbers import draw_numbers, set_numbers
+from mindrun.numbers.arithmetic import ANGLE, COSINE, SINE, X, Y, middle_of, sine_cosine, uniform
+from mindrun.sim.codes import (
+    BETWEEN,
+    CHOSEN,
+    CONSTANT,
+    DRAWN,
+    DRAWN_NUMBER,
+    DRAWN_WHOLE,
+    FAILING,
+    GOING_ON,
+    LEAVE,
+    LOST,
+    SERVO,
+    VISIT,
+    Tables,
+)
 from mindrun.sim.lanes.judge import patch_of
-from mindrun.sim.lanes.placement import draw, vanish
+from mindrun.sim.lanes.placement import any_of, draw, vanish
 from mindrun.sim.lanes.reaching import begin_inside
 from mindrun.sim.lanes.solid import is_lost, remove_box
 from mindrun.sim.lanes.think import run_program
+from mindrun.sim.parameter_rows import computed
 from mindrun.sim.state import PLACE_ROWS, Jobs, State
 from mindrun.sim.units import unit, unit_where
 
+BEFORE_THE_WORLD = np.uint64(draws.BEFORE_THE_WORLD)
 MEASURED_ASIDE = np.uint64(0xD1B54A32D192ED03)  # what no skill reads draws from a generator of its own
 
 
@@ -66,6 +82,43 @@ def begin_job(tables: Tables, state: State, jobs: Jobs, lane: int) -> int:
     return True
 
 
+def draw_numbers(tables, world, seed, lane):
+    """Draw the numbers of a lane that its task draws, before its world, and from the seed alone: they move nothing."""
+    world.random_aside[lane] = seed ^ BEFORE_THE_WORLD
+    for i in range(len(tables.parameters)):
+        row = tables.parameters[i]
+        if row.form == BETWEEN:
+            world.numbers[i, lane] = uniform(world.random_aside, lane, row.low, row.high)
+        elif row.form == CHOSEN:
+            world.numbers[i, lane] = tables.choices[row.of + any_of(world.random_aside, int(row.high), lane)]
+
+
+def set_numbers(tables, world, lane):
+    """Draw the numbers of a lane that vary, after its world: it is the same world whatever varies in it."""
+    numbers, random = world.numbers, world.random
+    for i in range(len(tables.parameters)):
+        row = tables.parameters[i]
+        if row.form == CONSTANT:
+            numbers[i, lane] = row.low
+        elif row.form == DRAWN:
+            numbers[i, lane] = uniform(random, lane, row.low, row.high)
+        elif row.form == DRAWN_WHOLE:
+            numbers[i, lane] = min(np.floor(uniform(random, lane, row.low, row.high + 1.0)), row.high)
+        elif row.form == FAILING:
+            numbers[i, lane] = fails_at(uniform(random, lane, 0.0, 1.0), row.low, tables.world[0].ticks)
+        elif row.form < CHOSEN:  # all others are known already
+            numbers[i, lane] = computed(row.form, numbers[row.of, lane], row.low)
+
+
+def fails_at(chance, keep, ticks):
+    """The tick in which something fails that lasts through each with a probability of `keep`; `chance` is in 0..1."""
+    tick, left = 0, keep
+    while left > chance and tick < ticks:
+        left *= keep
+        tick += 1
+    return tick
+
+
 @unit_where(lambda tables: len(tables.makings) > 0)
 def make_numbers(tables: Tables, state: State, lane: int) -> None:
     """Compute the numbers of a lane that are made of those that its task draws."""
@@ -103,7 +156,7 @@ def reset(tables, state, lane):
     world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(world.body[ANGLE, lane])
     world.reached[:, lane], world.delivered[:, lane] = 0, 0
     for place in range(0, PLACE_ROWS * TRAIL_TICKS, PLACE_ROWS):
-        world.trail[place + X, lane], world.trail[place + Y, lane] = world.body[X, lane], world.body[Y, lane]
+        world.trail[place + X, lane], world.trail[place + Y, lane] = middle_of(world.body, lane)
     mind.recurrent[:, lane] = 0.0
     for i in range(len(tables.actuators)):
         actuator = tables.actuators[i]
@@ -145,18 +198,19 @@ def move(state, source, target):
     """Move a lane to the place of one whose run is over, but for what is of this tick."""
     world, mind, sight, judge = state.world, state.mind, state.sight, state.judge
     contact, run = state.contact, state.run
-    for rows in (world.body, world.heading, world.things, world.trail, world.loose, world.numbers, world.direction):
+    for rows in (
+        world.body, world.heading, world.things, world.trail, world.loose, world.numbers, world.direction,
+        world.swivel, sight.nearby, sight.anchor, judge.left_changes, judge.right_changes, judge.lines,
+    ):  # fmt: skip
         copy_lane(rows, source, target)
-    copy_lane(world.swivel, source, target)
     for rows in (world.reached, world.delivered, judge.arrived):
         copy_lane(rows, source, target)
     for rows in (world.still, world.goal, judge.counts, judge.left):
         copy_lane(rows, source, target)
-    for rows in (mind.readings, mind.before, mind.measured, mind.rings, mind.genome, mind.recurrent, mind.late):
-        copy_lane(rows, source, target)
-    for rows in (mind.commands, mind.influence, judge.last_commands):
-        copy_lane(rows, source, target)
-    for rows in (sight.nearby, sight.anchor, judge.left_changes, judge.right_changes, judge.lines):
+    for rows in (
+        mind.readings, mind.before, mind.measured, mind.rings, mind.genome, mind.recurrent, mind.late, mind.commands,
+        mind.influence, judge.last_commands,
+    ):  # fmt: skip
         copy_lane(rows, source, target)
     copy_row(world.boxes, source, target)
     copy_row(judge.visited, source, target)
@@ -164,13 +218,15 @@ def move(state, source, target):
     copy_row(contact.pairs, source, target)
     copy_row(contact.order, source, target)
     contact.space[target] = contact.space[source]
-    for numbers in (world.restless, world.held, world.tick, sight.nearby_count, contact.near, contact.touching):
+    for numbers in (
+        world.restless, world.held, world.tick, sight.nearby_count, contact.near, contact.touching, run.job, run.ended,
+        run.met, run.faults,
+    ):  # fmt: skip
         numbers[target] = numbers[source]
-    for numbers in (run.job, run.ended, run.met, run.faults):
+    for numbers in (world.battery, contact.last):
         numbers[target] = numbers[source]
-    world.battery[target], contact.last[target] = world.battery[source], contact.last[source]
-    world.random[target], world.random_aside[target] = world.random[source], world.random_aside[source]
-    world.seed[target] = world.seed[source]
+    for numbers in (world.random, world.random_aside, world.seed):
+        numbers[target] = numbers[source]
 
 
 def copy_lane(rows, source, target):

@@ -22,8 +22,10 @@ from mindrun.numbers.arithmetic import (
     box_of,
     clamp,
     highest,
+    length,
     load,
     lowest,
+    middle_of,
     nearer,
     place_of,
     sine_cosine,
@@ -35,7 +37,7 @@ from mindrun.numbers.arithmetic import (
 )
 from mindrun.sim.codes import Tables
 from mindrun.sim.kind_lanes import read
-from mindrun.sim.lanes.solid import put_box, remove_box
+from mindrun.sim.lanes.solid import count_of, put_box, remove_box
 from mindrun.sim.state import (
     FIRST_RAY,
     HIGH,
@@ -66,7 +68,11 @@ CULLING_SLACK_UNITS = 2.0  # how far a robot may move before the boxes near it a
 def sense(tables: Tables, state: State, lanes: int, clock: int) -> None:
     """Fill the rows of the sensors that somebody reads, in the order of the table (sources before derivatives)."""
     world, sight, mind = state.world, state.sight, state.mind
-    measure_distances(world.body, world.things, len(tables.things), lanes)
+    for i in range(len(tables.things)):
+        for lane in range(lanes):
+            x, y = place_of(world.things, i, lane)
+            far = length(x - world.body[X, lane], y - world.body[Y, lane])
+            world.things[THING_ROWS * i + DISTANCE, lane] = far
     choose(world, sight, tables.world[0].near + CULLING_SLACK_UNITS, lanes)
     if tables.world[0].rays > 0:
         look(tables, world, sight, lanes)
@@ -101,30 +107,28 @@ def face(tables: Tables, world: WorldState, sight: SightState, i: int, is_turned
 
 @unit_where(lambda tables: tables.sensors["is_rough"].any())
 def roughen(tables: Tables, world: WorldState, mind: MindState, i: int, lanes: int) -> None:
-    """Make the readings of sensor i imperfect, one by one."""
-    for k in range(tables.sensors[i].width):
-        roughen_one(world, mind, tables.sensors[i], k, lanes)
-
-
-def roughen_one(world, mind, sensor, k, lanes):
-    """Make reading k of a sensor imperfect: taken now and then, with noise, sometimes lost, and seen later."""
-    out, measured, tick = mind.readings[sensor.start + k], mind.measured[sensor.held + k], world.tick
+    """Make the readings of sensor i imperfect: taken now and then, with noise, sometimes lost, and seen later."""
+    sensor, tick = tables.sensors[i], world.tick
     random = world.random_aside if sensor.is_aside else world.random
-    for lane in range(lanes):
-        if tick[lane] % sensor.every == 0:
-            before = measured[lane] if tick[lane] > 0 else out[lane]
-            measured[lane] = measure(random, world.numbers, sensor, out[lane], before, lane)
-        out[lane] = measured[lane]
-    first = sensor.ring + k * sensor.delay
-    for lane in range(lanes if sensor.delay > 0 else 0):
-        delay = int(world.numbers[sensor.wait, lane])
-        if delay == 0:
-            continue
-        slot = first + tick[lane] % delay
-        oldest = mind.rings[slot, lane] if tick[lane] >= delay else mind.rings[first, lane]
-        seen = oldest if tick[lane] > 0 else out[lane]
-        mind.rings[slot, lane] = out[lane]
-        out[lane] = seen
+    for k in range(sensor.width):
+        out, measured, first = (
+            mind.readings[sensor.start + k],
+            mind.measured[sensor.held + k],
+            sensor.ring + k * sensor.delay,
+        )
+        for lane in range(lanes):
+            if tick[lane] % sensor.every == 0:
+                before = measured[lane] if tick[lane] > 0 else out[lane]
+                measured[lane] = measure(random, world.numbers, sensor, out[lane], before, lane)
+            out[lane] = measured[lane]
+        for lane in range(lanes if sensor.delay > 0 else 0):
+            delay = int(world.numbers[sensor.wait, lane])
+            if delay > 0:
+                slot = first + tick[lane] % delay
+                oldest = mind.rings[slot, lane] if tick[lane] >= delay else mind.rings[first, lane]
+                seen = oldest if tick[lane] > 0 else out[lane]
+                mind.rings[slot, lane] = out[lane]
+                out[lane] = seen
 
 
 def measure(random, numbers, sensor, true, before, lane):
@@ -138,15 +142,6 @@ def measure(random, numbers, sensor, true, before, lane):
     return true
 
 
-def measure_distances(body, things, count, lanes):
-    """Compute the distance between the robot and every thing as the tick begins."""
-    for i in range(count):
-        for lane in range(lanes):
-            x, y = place_of(things, i, lane)
-            dx, dy = x - body[X, lane], y - body[Y, lane]
-            things[THING_ROWS * i + DISTANCE, lane] = np.sqrt(dx * dx + dy * dy)
-
-
 def look(tables, world, sight, lanes):
     """Compute the distance from each robot's centre along each ray into `sight`, after heading and place."""
     for k in range(sight.nearby_most[0]):
@@ -158,10 +153,10 @@ def look(tables, world, sight, lanes):
 
 def set_out(world, sight, lanes):
     """Write where each robot is and its heading into `sight`."""
-    rows = sight.sight
+    rows, heading, body = sight.sight, world.heading, world.body
     for lane in range(lanes):
-        rows[SIGHT_COSINE, lane], rows[SIGHT_SINE, lane] = F(world.heading[COSINE, lane]), F(world.heading[SINE, lane])
-        rows[SIGHT_X, lane], rows[SIGHT_Y, lane] = F(world.body[X, lane]), F(world.body[Y, lane])
+        rows[SIGHT_COSINE, lane], rows[SIGHT_SINE, lane] = F(heading[COSINE, lane]), F(heading[SINE, lane])
+        rows[SIGHT_X, lane], rows[SIGHT_Y, lane] = F(body[X, lane]), F(body[Y, lane])
 
 
 def cast(tables, sight, first, last, lanes):
@@ -203,7 +198,7 @@ def choose(world, sight, reach, lanes):
     for lane in range(lanes):
         dx, dy = body[X, lane] - anchor[X, lane], body[Y, lane] - anchor[Y, lane]
         if not dx * dx + dy * dy < (CULLING_SLACK_UNITS * 0.9) ** 2:
-            anchor[X, lane], anchor[Y, lane] = body[X, lane], body[Y, lane]
+            anchor[X, lane], anchor[Y, lane] = middle_of(body, lane)
             choose_in(world.boxes, sight, reach, lane)
         most = max(most, sight.nearby_count[lane])
     sight.nearby_most[0] = most
@@ -213,7 +208,7 @@ def choose_in(boxes, sight, reach, lane):
     """Copy the boxes around the anchor of a lane, and count them."""
     nearby, x, y = sight.nearby[:, lane], sight.anchor[X, lane], sight.anchor[Y, lane]
     found = 0
-    for b in range(boxes.shape[1] // BOX_COLUMNS):
+    for b in range(count_of(boxes)):
         its_x, its_y, wide, high = box_of(boxes, b, lane)
         if abs(its_x - x) < wide + reach and abs(its_y - y) < high + reach:
             put_box(nearby, found, its_x, its_y, wide, high)

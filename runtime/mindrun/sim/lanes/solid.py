@@ -26,7 +26,10 @@ from mindrun.numbers.arithmetic import (
     X,
     Y,
     box_of,
+    middle_of,
+    motion_of,
     place_of,
+    pose_of,
     put_thing,
     sine_cosine,
     size_of,
@@ -48,13 +51,19 @@ def within(x, y, angle):
 
 def is_lost(body, lane):
     """True if a lane's robot is beyond all places."""
-    return not within(body[X, lane], body[Y, lane], body[ANGLE, lane])
+    x, y, angle = pose_of(body, lane)
+    return not within(x, y, angle)
 
 
 def put_box(boxes, b, x, y, wide, high):
     """Write box b of a lane: its middle, and half of its sides."""
     box = BOX_COLUMNS * b
     boxes[box + X], boxes[box + Y], boxes[box + HALF_X], boxes[box + HALF_Y] = x, y, wide, high
+
+
+def count_of(boxes):
+    """The number of boxes of a lane."""
+    return boxes.shape[1] // BOX_COLUMNS
 
 
 def remove_box(boxes, b):
@@ -64,7 +73,7 @@ def remove_box(boxes, b):
 
 def is_clear(boxes, x, y, margin, lane):
     """True if no obstacle comes within `margin` of a point, along the axes."""
-    for b in range(boxes.shape[1] // BOX_COLUMNS):
+    for b in range(count_of(boxes)):
         its_x, its_y, wide, high = box_of(boxes, b, lane)
         if abs(its_x - x) < wide + margin and abs(its_y - y) < high + margin:
             return False
@@ -77,10 +86,30 @@ def is_free(tables, world, x, y, half, lane):
     return half_x - abs(x) >= half and half_y - abs(y) >= half and is_clear(world.boxes, x, y, half, lane)
 
 
+def drift_of(loose, i, lane):
+    """The velocity along x and y, and the spin, of loose thing i."""
+    row = LOOSE_ROWS * i
+    return loose[row + PUSHED_X, lane], loose[row + PUSHED_Y, lane], loose[row + PUSHED_SPIN, lane]
+
+
+def turn_of(loose, i, lane):
+    """The angle by which loose thing i has turned."""
+    return loose[LOOSE_ROWS * i + TURN, lane]
+
+
+def loose_place(tables, world, i, lane):
+    """The x and y of loose thing i."""
+    return place_of(world.things, tables.loose[i].thing, lane)
+
+
+def loose_size(tables, world, i, lane):
+    """The side or the diameter of loose thing i."""
+    return size_of(world.things, tables.loose[i].thing, lane)
+
+
 def extent_of(tables, world, i, lane):
     """The radius of a circle around loose thing i, however it is turned."""
-    body = tables.loose[i]
-    return size_of(world.things, body.thing, lane) * (0.5 if body.is_round else HALF_DIAGONAL)
+    return loose_size(tables, world, i, lane) * (0.5 if tables.loose[i].is_round else HALF_DIAGONAL)
 
 
 def is_barred(boxes, constants, x, y, to_x, to_y, half, lane):
@@ -92,7 +121,7 @@ def is_barred(boxes, constants, x, y, to_x, to_y, half, lane):
     if (abs(to_x) > wide and abs(x) <= wide) or (abs(to_y) > high and abs(y) <= high):
         return True
     dx, dy = to_x - x, to_y - y
-    for b in range(boxes.shape[1] // BOX_COLUMNS):
+    for b in range(count_of(boxes)):
         its_x, its_y, wide, high = box_of(boxes, b, lane)
         if meets(its_x - x, its_y - y, dx, dy, wide + half, high + half):
             return True
@@ -102,7 +131,7 @@ def is_barred(boxes, constants, x, y, to_x, to_y, half, lane):
 def is_walled(boxes, x, y, to_x, to_y, lane):
     """True if the way between two places leads through an obstacle that neither of them is in."""
     dx, dy = to_x - x, to_y - y
-    for b in range(boxes.shape[1] // BOX_COLUMNS):
+    for b in range(count_of(boxes)):
         its_x, its_y, wide, high = box_of(boxes, b, lane)
         ends_in = abs(its_x - to_x) < wide and abs(its_y - to_y) < high
         if not ends_in and meets(its_x - x, its_y - y, dx, dy, wide, high):
@@ -113,8 +142,8 @@ def is_walled(boxes, x, y, to_x, to_y, lane):
 def is_blocked(tables, world, x, y, to_x, to_y, lane):
     """True if the way between two places leads through the square around a loose thing, which does not turn with it."""
     for i in range(len(tables.loose)):
-        its_x, its_y = place_of(world.things, tables.loose[i].thing, lane)
-        half = size_of(world.things, tables.loose[i].thing, lane) / 2
+        its_x, its_y = loose_place(tables, world, i, lane)
+        half = loose_size(tables, world, i, lane) / 2
         if meets(its_x - x, its_y - y, to_x - x, to_y - y, half, half):
             return True
     return False
@@ -134,12 +163,11 @@ def find_swift(tables, world, swift, lanes):
     own_arm, own_least = 0.0 if constants.is_round else constants.radius, min(constants.front, constants.side)
     arm, least, dt = constants.arm, constants.least, constants.dt
     for lane in range(lanes):
-        spin = abs(body[SPIN, lane]) * (own_arm if held[lane] < 0 else arm)
-        speed = abs(body[SPEED_X, lane]) + abs(body[SPEED_Y, lane]) + spin
+        speed = top_speed(motion_of(body, lane), own_arm if held[lane] < 0 else arm)
         count += speed * dt > SWIFT_SHARE * (own_least if held[lane] < 0 else least)
     for i in range(len(tables.loose)):
         for lane in range(lanes):
-            size = size_of(world.things, tables.loose[i].thing, lane)
+            size = loose_size(tables, world, i, lane)
             count += speed_of_loose(tables, world, i, lane) * dt > SWIFT_SHARE * size / 2
     for lane in range(lanes if count > 0 else 0):
         swift[lane] = 1 if stride(tables, world, lane) < dt else 0
@@ -148,9 +176,14 @@ def find_swift(tables, world, swift, lanes):
 
 def speed_of_loose(tables, world, i, lane):
     """An upper bound of the speed of any point of loose thing i, in units per second."""
-    row, arm = LOOSE_ROWS * i, 0.0 if tables.loose[i].is_round else extent_of(tables, world, i, lane)
-    speed = abs(world.loose[row + PUSHED_X, lane]) + abs(world.loose[row + PUSHED_Y, lane])
-    return speed + abs(world.loose[row + PUSHED_SPIN, lane]) * arm
+    arm = 0.0 if tables.loose[i].is_round else extent_of(tables, world, i, lane)
+    return top_speed(drift_of(world.loose, i, lane), arm)
+
+
+def top_speed(motion, arm):
+    """An upper bound of the speed of any point that is by `arm` from the middle of what moves and spins."""
+    vx, vy, spin = motion
+    return abs(vx) + abs(vy) + abs(spin) * arm
 
 
 @unit_where(seldom)
@@ -162,8 +195,7 @@ def stride(tables: Tables, world: WorldState, lane: int) -> float:
     if held >= 0:
         own, hold = size_of(world.things, held, lane) / 2, tables.things[held].hold
         half, arm, reach = min(half, own), max(arm, hold), max(reach, hold + own)
-    x, y, longest = body[X, lane], body[Y, lane], np.inf
-    speed = abs(body[SPEED_X, lane]) + abs(body[SPEED_Y, lane]) + abs(body[SPIN, lane]) * arm
+    (x, y), speed, longest = middle_of(body, lane), top_speed(motion_of(body, lane), arm), np.inf
     if speed * constants.dt > SWIFT_SHARE * half:
         longest = max(STRIDE_SHARE * half, room_around(tables, world, x, y, reach, -1, lane)) / speed
     for i in range(len(tables.loose)):
@@ -173,11 +205,11 @@ def stride(tables: Tables, world: WorldState, lane: int) -> float:
 
 def stride_of(tables, world, i, x, y, reach, lane):
     """The seconds for which loose thing i may go on at once beside a robot at (x, y) of radius `reach`."""
-    thing, speed = tables.loose[i].thing, speed_of_loose(tables, world, i, lane)
-    half, extent = size_of(world.things, thing, lane) / 2, extent_of(tables, world, i, lane)
+    speed, half = speed_of_loose(tables, world, i, lane), loose_size(tables, world, i, lane) / 2
+    extent = extent_of(tables, world, i, lane)
     if not speed * tables.world[0].dt > SWIFT_SHARE * half:
         return np.inf
-    its_x, its_y = place_of(world.things, thing, lane)
+    its_x, its_y = loose_place(tables, world, i, lane)
     room = room_around(tables, world, its_x, its_y, extent, i, lane)
     room = min(room, (max(abs(its_x - x), abs(its_y - y)) - reach - extent) / 2)
     return max(STRIDE_SHARE * half, room) / speed
@@ -190,11 +222,11 @@ def room_around(tables, world, x, y, extent, but, lane):
     """
     boxes, constants = world.boxes, tables.world[0]
     room = min(constants.half_x - abs(x), constants.half_y - abs(y)) - extent
-    for b in range(boxes.shape[1] // BOX_COLUMNS):
+    for b in range(count_of(boxes)):
         its_x, its_y, wide, high = box_of(boxes, b, lane)
         room = min(room, max(abs(its_x - x) - wide, abs(its_y - y) - high) - extent)
     for j in range(len(tables.loose)):
-        its_x, its_y = place_of(world.things, tables.loose[j].thing, lane)
+        its_x, its_y = loose_place(tables, world, j, lane)
         if j != but and not np.isnan(its_x):
             far = max(abs(its_x - x), abs(its_y - y)) - extent_of(tables, world, j, lane)
             room = min(room, (far - extent) / 2)
@@ -204,7 +236,7 @@ def room_around(tables, world, x, y, extent, but, lane):
 def note_begin(tables, world, solids, lane):
     """Note where everything that moves is as a tick begins, and half of its least side."""
     robot, constants = solids[ROBOT], tables.world[0]
-    robot.begin.x, robot.begin.y = world.body[X, lane], world.body[Y, lane]
+    robot.begin.x, robot.begin.y = middle_of(world.body, lane)
     robot.half = min(constants.front, constants.side)
     if world.held[lane] >= 0:  # not yet in the claw, where it has just been taken
         note_thing(world, solids[HELD], world.held[lane], lane)
@@ -221,14 +253,14 @@ def note_thing(world, solid, thing, lane):
 def note_after(tables, world, solids, lane):
     """Note where everything that moves is after a step; NaN where nothing is held."""
     robot, held = solids[ROBOT].after, solids[HELD].after
-    robot.x, robot.y, held.x, held.y = world.body[X, lane], world.body[Y, lane], np.nan, np.nan
+    (robot.x, robot.y), held.x, held.y = middle_of(world.body, lane), np.nan, np.nan
     if world.held[lane] >= 0:
         hold = tables.things[world.held[lane]].hold
         sine, cosine = sine_cosine(world.body[ANGLE, lane])
         held.x, held.y = robot.x + cosine * hold, robot.y + sine * hold
     for i in range(len(tables.loose)):
         loose = solids[FIRST_LOOSE + i].after
-        loose.x, loose.y = place_of(world.things, tables.loose[i].thing, lane)
+        loose.x, loose.y = loose_place(tables, world, i, lane)
 
 
 def note_before(tables, world, solids, lane):
@@ -238,7 +270,7 @@ def note_before(tables, world, solids, lane):
         solids[a].before.x, solids[a].before.y = solids[a].after.x, solids[a].after.y
     solids[ROBOT].before_angle = world.body[ANGLE, lane]
     for i in range(len(tables.loose)):
-        solids[FIRST_LOOSE + i].before_angle = world.loose[LOOSE_ROWS * i + TURN, lane]
+        solids[FIRST_LOOSE + i].before_angle = turn_of(world.loose, i, lane)
 
 
 def hold_back(tables, world, solids, lane):

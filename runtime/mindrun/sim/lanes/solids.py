@@ -10,23 +10,24 @@ from mindrun.kinds.bodies.body import FRICTION_COEFFICIENT
 from mindrun.numbers.arithmetic import (
     ANGLE,
     LOOSE_ROWS,
-    PUSHED_SPIN,
-    PUSHED_X,
-    PUSHED_Y,
     SPEED_X,
     SPEED_Y,
     SPIN,
     TURN,
     X,
     Y,
+    motion_of,
     place_of,
+    pose_of,
     put_thing,
     size_of,
 )
+from mindrun.sim import c_library
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE, Tables
-from mindrun.sim.lanes.loose import OF_LOOSE, SETTLED_TICKS, is_at_rest, mass_of, put_motion
-from mindrun.sim.lanes.shapes import overlap, put_corners, put_held, put_shape, turn
+from mindrun.sim.lanes.loose import OF_LOOSE, SETTLED_TICKS, is_at_rest, mass_of, put_drift
+from mindrun.sim.lanes.solid import drift_of, loose_place, loose_size, turn_of
 from mindrun.sim.state import FIRST_LOOSE, FIXED, HELD, PLACE_ROWS, ROBOT, ContactState, WorldState
+from mindrun.sim.units import call_double
 
 
 def open_space(tables, world, contact, lane):
@@ -53,8 +54,9 @@ def move_robot(tables, world, contact, seconds, share, lane):
     """Move a lane's robot on with what it holds, and let its force act."""
     robot, body, push, held = contact.solids[lane, ROBOT], world.body, world.push, world.held[lane]
     speed = robot.velocity
-    speed.x, speed.y, speed.spin = body[SPEED_X, lane], body[SPEED_Y, lane], body[SPIN, lane]
-    angle = move(robot, body[X, lane], body[Y, lane], body[ANGLE, lane], seconds)
+    speed.x, speed.y, speed.spin = motion_of(body, lane)
+    x, y, angle = pose_of(body, lane)
+    angle = move(robot, x, y, angle, seconds)
     body[ANGLE, lane] = angle
     speed.x += push[FORCE_X, lane] * share * robot.mass_inv * seconds
     speed.y += push[FORCE_Y, lane] * share * robot.mass_inv * seconds
@@ -82,19 +84,18 @@ def move_loose(
     """Move the loose things of a lane on that are awake with a share of their force, and wake what they come near."""
     loose = world.loose
     for i in range(len(tables.loose)):
-        solid, row = contact.solids[lane, FIRST_LOOSE + i], LOOSE_ROWS * i
+        solid = contact.solids[lane, FIRST_LOOSE + i]
         if solid.is_asleep:
             continue
-        x, y = place_of(world.things, tables.loose[i].thing, lane)
+        x, y = loose_place(tables, world, i, lane)
         if np.isnan(x):  # gone
             solid.is_asleep, solid.left, solid.right = 1, np.inf, -np.inf
             continue
-        size, speed = size_of(world.things, tables.loose[i].thing, lane), solid.velocity
+        size, speed = loose_size(tables, world, i, lane), solid.velocity
         if solid.made != size:
             make(tables, world, solid, i, size, lane)
-        speed.x, speed.y = loose[row + PUSHED_X, lane], loose[row + PUSHED_Y, lane]
-        speed.spin = loose[row + PUSHED_SPIN, lane]
-        angle = move(solid, x, y, loose[row + TURN, lane], seconds)
+        speed.x, speed.y, speed.spin = drift_of(loose, i, lane)
+        angle = move(solid, x, y, turn_of(loose, i, lane), seconds)
         if tables.loose[i].aim != 0:
             speed.x += world.drive[PLACE_ROWS * i + X, lane] * share * solid.mass_inv * seconds
             speed.y += world.drive[PLACE_ROWS * i + Y, lane] * share * solid.mass_inv * seconds
@@ -137,16 +138,20 @@ def gather(tables, world, contact, lane):
     count = 0
     if is_held_first:
         awake[count], count = HELD, count + 1
-    for i in range(len(tables.loose)):
-        if tables.loose[i].turn < constants.turn and not contact.solids[lane, FIRST_LOOSE + i].is_asleep:
-            awake[count], count = FIRST_LOOSE + i, count + 1
+    count = gather_loose(tables, contact, count, True, lane)
     awake[count], count = ROBOT, count + 1
     if held >= 0 and not is_held_first:
         awake[count], count = HELD, count + 1
+    contact.space[lane].awake = gather_loose(tables, contact, count, False, lane)
+
+
+def gather_loose(tables, contact, count, is_before, lane):
+    """Write down the loose things that are awake and that the hash has before the robot, or after it."""
+    awake, turn = contact.awake[lane], tables.world[0].turn
     for i in range(len(tables.loose)):
-        if tables.loose[i].turn > constants.turn and not contact.solids[lane, FIRST_LOOSE + i].is_asleep:
+        if (tables.loose[i].turn < turn) == is_before and not contact.solids[lane, FIRST_LOOSE + i].is_asleep:
             awake[count], count = FIRST_LOOSE + i, count + 1
-    contact.space[lane].awake = count
+    return count
 
 
 def take_robot(world, robot, lane):
@@ -160,32 +165,73 @@ def take_robot(world, robot, lane):
 def take_loose(tables: Tables, world: WorldState, contact: ContactState, lane: int) -> None:
     """Take the places and motions of the loose things that were awake; what has moved has not settled."""
     for i in range(len(tables.loose)):
-        solid, row, thing = contact.solids[lane, FIRST_LOOSE + i], LOOSE_ROWS * i, tables.loose[i].thing
+        solid, thing = contact.solids[lane, FIRST_LOOSE + i], tables.loose[i].thing
         if solid.is_asleep:
             continue
         x, y, angle, speed = solid.middle_x, solid.middle_y, solid.turned, solid.velocity
         stood_x, stood_y = place_of(world.things, thing, lane)
         rests = is_at_rest(speed.x, speed.y, speed.spin)
-        if not (rests and stood_x == x and stood_y == y and world.loose[row + TURN, lane] == angle):
+        if not (rests and stood_x == x and stood_y == y and turn_of(world.loose, i, lane) == angle):
             world.still[i, lane], world.restless[lane] = 0, 1
         is_settled = world.still[i, lane] >= SETTLED_TICKS
         solid.is_asleep = 1 if is_settled and is_motionless(speed) and is_motionless(solid.bias) else 0
         put_thing(world.things, thing, x, y, lane)
-        world.loose[row + TURN, lane] = angle
-        put_motion(world.loose, row, speed.x, speed.y, speed.spin, rests, lane)
-    keep_awake(contact.solids[lane], contact.pairs[lane], contact.order[lane], contact.space[lane].touching)
-
-
-def keep_awake(solids, pairs, order, count):
-    """Let nothing fall asleep that is pushed, or is to be parted."""
-    for i in range(count):
-        pair = pairs[order[i]]
+        world.loose[LOOSE_ROWS * i + TURN, lane] = angle
+        put_drift(world.loose, i, speed.x, speed.y, speed.spin, rests, lane)
+    for i in range(contact.space[lane].touching):  # nothing falls asleep that is pushed, or is to be parted
+        pair = contact.pairs[lane, contact.order[lane, i]]
         for k in range(pair.count):
-            contact = pair.contacts[k]
-            if not (contact.bias == 0.0 and contact.along == 0.0 and contact.across == 0.0):
-                solids[pair.own].is_asleep, solids[pair.other].is_asleep = 0, 0
+            met = pair.contacts[k]
+            if not (met.bias == 0.0 and met.along == 0.0 and met.across == 0.0):
+                contact.solids[lane, pair.own].is_asleep, contact.solids[lane, pair.other].is_asleep = 0, 0
 
 
 def is_motionless(motion):
     """True if a motion moves nothing on and turns nothing."""
     return motion.x == 0.0 and motion.y == 0.0 and motion.spin == 0.0
+
+
+def put_corners(corners, left, low, right, top):
+    """Write the corners of a rectangle."""
+    corners[0].x, corners[0].y = left, low
+    corners[1].x, corners[1].y = right, low
+    corners[2].x, corners[2].y = right, top
+    corners[3].x, corners[3].y = left, top
+
+
+def turn(tables, solid, angle):
+    """Note to which angle a solid is turned, with its sine and cosine by C."""
+    if solid.turned != angle:
+        solid.sine = call_double(tables.library[c_library.SINE], angle)
+        solid.cosine = call_double(tables.library[c_library.COSINE], angle)
+        solid.turned = angle
+
+
+def put_shape(solid, x, y):
+    """Write where the corners of a solid are, or its middle, and its sides."""
+    if solid.is_round:
+        radius = solid.radius
+        solid.corners[0].x, solid.corners[0].y = x, y
+        solid.left, solid.right, solid.low, solid.high = x - radius, x + radius, y - radius, y + radius
+        return
+    cosine, sine, left, right, low, high = solid.cosine, solid.sine, np.inf, -np.inf, np.inf, -np.inf
+    for i in range(4):
+        own = solid.own_corners[i]
+        at_x, at_y = cosine * own.x + -sine * own.y + x, sine * own.x + cosine * own.y + y
+        solid.corners[i].x, solid.corners[i].y = at_x, at_y
+        left, right = left if left < at_x else at_x, right if right > at_x else at_x
+        low, high = low if low < at_y else at_y, high if high > at_y else at_y
+    solid.left, solid.right, solid.low, solid.high = left, right, low, high
+
+
+def put_held(tables, world, contact, thing, radius, lane):
+    """Write the circle of a thing in the claw, which turns with the robot."""
+    robot, held, hold = contact.solids[lane, ROBOT], contact.solids[lane, HELD], tables.things[thing].hold
+    turn(tables, robot, world.body[ANGLE, lane])
+    held.radius, held.middle_x, held.middle_y = radius, robot.middle_x, robot.middle_y
+    put_shape(held, robot.cosine * hold + robot.middle_x, robot.sine * hold + robot.middle_y)
+
+
+def overlap(a, b):
+    """True if the rectangles along the axes around two solids meet."""
+    return a.left <= b.right and b.left <= a.right and a.low <= b.high and b.low <= a.high

@@ -17,7 +17,11 @@ from mindrun.numbers.arithmetic import (
     SPIN,
     X,
     Y,
+    length,
+    motion_of,
+    next_middle,
     place_of,
+    pose_of,
     put_thing,
     sine_cosine,
     size_of,
@@ -25,8 +29,7 @@ from mindrun.numbers.arithmetic import (
 )
 from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PERSISTENCE_TICKS, PUSH, STEERING, TORQUE, Tables
 from mindrun.sim.lanes.act import carry
-from mindrun.sim.lanes.aim import seek
-from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_down
+from mindrun.sim.lanes.loose import approach_loose, could_touch, seek, slide, slow_down
 from mindrun.sim.lanes.placement import at_drawn
 from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
 from mindrun.sim.lanes.solid import CLOSED_UNITS, find_swift, is_barred, is_free, within
@@ -67,9 +70,7 @@ def step(tables: Tables, state: State, lanes: int) -> None:
 def thrust(tables, world, lanes):
     """Damp the body's velocities, a car's as its axles let it move, and sum force and torque in `push`."""
     body, heading, push, constants, is_aside = world.body, world.heading, world.push, tables.world[0], False
-    push[FORCE, :lanes] = 0.0
-    push[TORQUE, :lanes] = 0.0
-    push[FORCE_ASIDE, :lanes] = 0.0
+    push[:, :lanes] = 0.0
     for i in range(len(tables.actuators)):
         actuator = tables.actuators[i]
         if actuator.kind == PUSH:
@@ -110,12 +111,10 @@ def roll(tables: Tables, world: WorldState, lanes: int) -> None:
     for lane in range(lanes):
         inertia = moment[lane] * mass_inv[lane]
         sine, cosine = sine_cosine(steered(tables, world, lane))
-        aside = sine / cosine / 2.0
-        turn = sine / cosine / constants.axles
+        aside, turn = sine / cosine / 2.0, sine / cosine / constants.axles
         c, s = heading[COSINE, lane], heading[SINE, lane]
-        ahead = body[SPEED_X, lane] * c + body[SPEED_Y, lane] * s
-        left = body[SPEED_Y, lane] * c - body[SPEED_X, lane] * s
-        speed = ahead + left * aside + body[SPIN, lane] * turn * inertia
+        vx, vy, spin = motion_of(body, lane)
+        speed = vx * c + vy * s + (vy * c - vx * s) * aside + spin * turn * inertia
         speed /= 1.0 + aside * aside + turn * turn * inertia
         body[SPEED_X, lane] = speed * c - speed * aside * s
         body[SPEED_Y, lane] = speed * s + speed * aside * c
@@ -141,8 +140,7 @@ def fly(world, near, constants, lanes):
     mass_inv, moment_inv = world.numbers[constants.mass_inv], world.numbers[constants.moment_inv]
     for lane in range(lanes):
         free = near[lane] == 0
-        x, y, angle = body[X, lane], body[Y, lane], body[ANGLE, lane]
-        speed_x, speed_y, spin = body[SPEED_X, lane], body[SPEED_Y, lane], body[SPIN, lane]
+        (x, y, angle), (speed_x, speed_y, spin) = pose_of(body, lane), motion_of(body, lane)
         body[X, lane] = x + speed_x * dt if free else x
         body[Y, lane] = y + speed_y * dt if free else y
         body[ANGLE, lane] = angle + spin * dt if free else angle
@@ -159,8 +157,8 @@ def find_near(tables, world, sight, contact, lanes):
     body, near, gap, dt = world.body, contact.near, contact.gap, tables.world[0].dt
     half_x, half_y = tables.world[0].half_x, tables.world[0].half_y
     for lane in range(lanes):
-        x = half_x - abs(body[X, lane] + body[SPEED_X, lane] * dt)
-        y = half_y - abs(body[Y, lane] + body[SPEED_Y, lane] * dt)
+        x, y = next_middle(body, dt, lane)
+        x, y = half_x - abs(x), half_y - abs(y)
         gap[lane] = x if x < y else y
     if len(tables.loose) > 0:
         approach_loose(tables, world, contact, lanes)
@@ -168,7 +166,7 @@ def find_near(tables, world, sight, contact, lanes):
         approach(sight.nearby[BOX_COLUMNS * k : BOX_COLUMNS * (k + 1)], body, dt, gap, lanes)
     reach = tables.world[0].radius + CONTACT_MARGIN_UNITS
     for lane in range(lanes):
-        x, y = body[X, lane] + body[SPEED_X, lane] * dt, body[Y, lane] + body[SPEED_Y, lane] * dt
+        x, y = next_middle(body, dt, lane)
         away = (x - sight.anchor[X, lane]) ** 2 + (y - sight.anchor[Y, lane]) ** 2
         leap = away > CULLING_SLACK_UNITS * CULLING_SLACK_UNITS  # away from the boxes it knows
         near[lane] = CONTACT_TICKS if leap | (gap[lane] < reach) else max(0, near[lane] - 1)
@@ -181,7 +179,7 @@ def find_near(tables, world, sight, contact, lanes):
         if world.restless[lane] > 0 and could_touch(tables, world, lane):
             near[lane] = CONTACT_TICKS
     for lane in range(lanes):
-        x, y = body[X, lane] + body[SPEED_X, lane] * dt, body[Y, lane] + body[SPEED_Y, lane] * dt
+        x, y = next_middle(body, dt, lane)
         there = within(x, y, body[ANGLE, lane] + body[SPIN, lane] * dt)
         near[lane] = near[lane] if there else 0
     if find_swift(tables, world, contact.swift, lanes) > 0:
@@ -192,8 +190,8 @@ def find_near(tables, world, sight, contact, lanes):
 def approach(box, body, dt, gap, lanes):
     """Lower `gap` to the distance along the axes between the robot's next centre and a box of each lane."""
     for lane in range(lanes):
-        x = abs(body[X, lane] + body[SPEED_X, lane] * dt - box[X, lane]) - box[HALF_X, lane]
-        y = abs(body[Y, lane] + body[SPEED_Y, lane] * dt - box[Y, lane]) - box[HALF_Y, lane]
+        x, y = next_middle(body, dt, lane)
+        x, y = abs(x - box[X, lane]) - box[HALF_X, lane], abs(y - box[Y, lane]) - box[HALF_Y, lane]
         far = x if x > y else y
         gap[lane] = far if far < gap[lane] else gap[lane]
 
@@ -258,7 +256,7 @@ def go_along(tables, world, i, x, y, lane):
     step = world.numbers[walker.step, lane]
     to_x, to_y = at_drawn(world, tables.corners[goal], lane)
     dx, dy = to_x - x, to_y - y
-    far = np.sqrt(dx * dx + dy * dy)
+    far = length(dx, dy)
     if far <= step:
         put_thing(world.things, walker.thing, to_x, to_y, lane)
         world.goal[i, lane] = tables.corners[goal].next

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from mindrun.numbers.arithmetic import ANGLE, SPEED_X, SPEED_Y, SPIN, F, X, Y
+from mindrun.numbers.arithmetic import ANGLE, SPIN, F, X, Y, next_middle
 from mindrun.sim.c_library import POWER
 from mindrun.sim.codes import Tables
 from mindrun.sim.lanes.meeting import forget_old, let_go, touch_fixed, touch_movers
@@ -64,8 +64,7 @@ def push_again(solids, pair, before):
     for k in range(pair.count):
         c = pair.contacts[k]
         jx, jy = (nx * c.along - ny * c.across) * before, (nx * c.across + ny * c.along) * before
-        push(own, own.velocity, c.x, c.y, -jx, -jy)
-        push(other, other.velocity, c.its_x, c.its_y, jx, jy)
+        push_apart(own, own.velocity, other, other.velocity, c, jx, jy)
 
 
 def act(solids, pair):
@@ -82,17 +81,21 @@ def act(solids, pair):
         along, across = bounce(c, pair.friction, x * nx + y * ny, x * -ny + y * nx)
         acting += more != 0.0 or along != 0.0 or across != 0.0
         jx, jy = nx * more, ny * more
-        push(own, own.bias, c.x, c.y, -jx, -jy)
-        push(other, other.bias, c.its_x, c.its_y, jx, jy)
+        push_apart(own, own.bias, other, other.bias, c, jx, jy)
         jx, jy = nx * along - ny * across, nx * across + ny * along
-        push(own, own.velocity, c.x, c.y, -jx, -jy)
-        push(other, other.velocity, c.its_x, c.its_y, jx, jy)
+        push_apart(own, own.velocity, other, other.velocity, c, jx, jy)
     return acting
 
 
 def velocity_at(motion, x, y):
     """The velocity of a place of a solid that has a motion."""
     return motion.x + -y * motion.spin, motion.y + x * motion.spin
+
+
+def push_apart(own, motion, other, its_motion, c, jx, jy):
+    """Change a motion of both solids by an impulse at a contact, each the other way."""
+    push(own, motion, c.x, c.y, -jx, -jy)
+    push(other, its_motion, c.its_x, c.its_y, jx, jy)
 
 
 def push(solid, motion, x, y, jx, jy):
@@ -150,7 +153,7 @@ def make_tick(tables: Tables, world: WorldState, contact: ContactState, lane: in
 
 def glides(body, seconds, lane):
     """True if a robot stays where worlds are; else it is moved on without contacts, and its run ends."""
-    x, y = body[X, lane] + body[SPEED_X, lane] * seconds, body[Y, lane] + body[SPEED_Y, lane] * seconds
+    x, y = next_middle(body, seconds, lane)
     angle = body[ANGLE, lane] + body[SPIN, lane] * seconds
     if within(x, y, angle):
         return True

@@ -165,8 +165,7 @@ def spread_scoped(tables: Tables, mind: MindState, row: int, e: int, count: int)
 
 def widen(sent, wide, active, count, lanes):
     """Return `wide` with what is sent in each of the lanes."""
-    for lane in range(lanes):
-        wide[lane] = NOT_SENT
+    wide[:lanes] = NOT_SENT
     for k in range(count):
         wide[active[k]] = sent[k]
     return wide
@@ -192,8 +191,7 @@ def gate(tables: Tables, state: State, out: int, e: int, count: int, everywhere:
     edge, mind, other = tables.edges[e], state.mind, state.mind.other
     values = mind.hidden[out + edge.output] if edge.output >= 0 else mind.values
     value(tables, state, edge.when, edge.whens, mind.opened, count, everywhere)
-    for k in range(count):
-        other[k] = ZERO
+    other[:count] = ZERO
     if edge.others > 0:
         value(tables, state, edge.other, edge.others, other, count, everywhere)
     for k in range(count):

@@ -6,13 +6,12 @@ from math import prod
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.kinds.environment import Slot
+from mindrun.numbers.arrays import Array, Doubles, Integers
 
 NUMBERS = "biuf"  # kinds of arrays: truth values, whole numbers, others
 
-Floats = NDArray[np.float64]
 Place = tuple[str, int]  # of a number: the name of its part, and where it stands in the flat array of that
 
 
@@ -24,8 +23,8 @@ class SpacePart:
     """
 
     shape: tuple[int, ...]
-    low: Floats
-    high: Floats
+    low: Doubles
+    high: Doubles
     dtype: Any
     is_choice: bool = False
 
@@ -43,7 +42,7 @@ class SpacePart:
         """The indices that there are, in words."""
         return " and ".join(f"0 to {n - 1}" if n > 1 else "0" for n in self.axes)
 
-    def values(self, numbers: Floats) -> list[Any]:
+    def values(self, numbers: Doubles) -> list[Any]:
         """Turn numbers [runs, size] into an array of its shape and type for each run; a single choice is a number."""
         values = numbers.astype(self.dtype).reshape(len(numbers), *self.shape)
         return [*values] if self.shape or self.is_choice else [np.asarray(value) for value in values]
@@ -64,10 +63,10 @@ class PartReader:
 
     path: tuple[Any, ...]
     part: SpacePart
-    places: NDArray[np.int64]
-    to: NDArray[np.int64]
+    places: Integers
+    to: Integers
 
-    def read(self, observation: Any, out: Floats) -> None:
+    def read(self, observation: Any, out: Doubles) -> None:
         """Put them into `out` [slots]; ValueError where the observation has another shape, or no real numbers."""
         for key in self.path:
             observation = observation[key]
@@ -76,7 +75,7 @@ class PartReader:
             raise ValueError(self._flaw(seen))
         out[self.to] = seen.reshape(-1)[self.places]
 
-    def _flaw(self, seen: NDArray[Any]) -> str:
+    def _flaw(self, seen: Array) -> str:
         what = f"the part {_name(self.path)} of an observation" if self.path else "an observation"
         if seen.shape != self.part.shape:
             return f"{what} has the shape {seen.shape}, and its space says {self.part.shape}"
@@ -121,7 +120,7 @@ def found(parts: Mapping[str, SpacePart], slot: Slot) -> tuple[str, SpacePart | 
     return name, parts[name], index or (0,)
 
 
-def actions_of(space: Any, acted: Mapping[str, SpacePart], numbers: Floats) -> list[Any]:
+def actions_of(space: Any, acted: Mapping[str, SpacePart], numbers: Doubles) -> list[Any]:
     """The actions of a space that numbers are [runs, numbers]: those of its parts `acted`, one part after the other."""
     values, first = {}, 0
     for name, part in acted.items():

@@ -6,7 +6,8 @@ from time import monotonic
 import numpy as np
 
 from mindrun.errors import MindError
-from mindrun.sim.outside.parts import Floats, Place
+from mindrun.numbers.arrays import Doubles
+from mindrun.sim.outside.parts import Place
 from mindrun.sim.outside.stepper import EnvironmentRun
 from mindrun.sim.outside.subprocess_stepper import Stepper
 
@@ -35,7 +36,7 @@ class RecordingStepper:
         self.environment, self._until = stepper.environment, monotonic() + CHECKED_SECONDS
         self._places: Sequence[Place] = ()
         self._seed = 0
-        self.actions, self.rows = list[Floats](), list[Floats]()
+        self.actions, self.rows = list[Doubles](), list[Doubles]()
 
     def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[EnvironmentRun]:
         """A new environment for the run."""
@@ -44,7 +45,7 @@ class RecordingStepper:
         self.rows.append(run.row.copy())
         return [run]
 
-    def step(self, runs: Sequence[EnvironmentRun], actions: Floats) -> None:
+    def step(self, runs: Sequence[EnvironmentRun], actions: Doubles) -> None:
         """Step it."""
         self._refuse_late()
         self._stepper.step(runs, actions)
@@ -78,7 +79,7 @@ class RecordingStepper:
             another.close(begun)
         return ""
 
-    def _again(self, stepper: Stepper, runs: Sequence[EnvironmentRun]) -> Iterator[list[Floats]]:
+    def _again(self, stepper: Stepper, runs: Sequence[EnvironmentRun]) -> Iterator[list[Doubles]]:
         """The rows of runs that have begun, tick after tick, in which the same is done."""
         yield [run.row for run in runs]
         for action in self.actions:
@@ -88,7 +89,7 @@ class RecordingStepper:
             stepper.step(runs, np.stack([action] * len(runs)))
             yield [run.row for run in runs]
 
-    def _difference(self, others: Iterator[list[Floats]], names: Sequence[str], is_paid: bool) -> str:
+    def _difference(self, others: Iterator[list[Doubles]], names: Sequence[str], is_paid: bool) -> str:
         """The first number that differs, and its tick, in words; empty where none does."""
         words = *names, "its reward", "its end", "the time that it breaks off"
         for ticks, (row, rows) in enumerate(zip(self.rows, others, strict=False)):

@@ -5,13 +5,12 @@ from copy import copy
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.errors import MindError
 from mindrun.graph.policy import Policy
+from mindrun.numbers.arrays import Integers, Singles
 from mindrun.sim.codes import BROKEN_OFF
 from mindrun.sim.lanes.act import act
 from mindrun.sim.lanes.advance import before, conclude
@@ -32,12 +31,8 @@ LEAST_SHARE = 0.001  # of the ticks, that is said as a number
 
 @dataclass(frozen=True, slots=True)
 class RunningEnvironments:
-    """The environment of each run that goes on, by the number of its job, and their stepper.
+    """The environment of each run that goes on, by the number of its job, and their stepper."""
 
-    `native` is what a tile of lanes keeps alive.
-    """
-
-    native: Any
     stepper: Stepper
     going_on: dict[int, EnvironmentRun] = field(default_factory=dict)
 
@@ -76,7 +71,7 @@ class EnvironmentRollout(Rollout):
         self._rewards = [i for i, measure in enumerate(self.task.measures) if measure.is_outside]
         self._ends = [i for i, event in enumerate(self.task.events) if event.is_outside]
 
-    def make_again(self, genome: NDArray[np.float32], seed: int) -> None:
+    def make_again(self, genome: Singles, seed: int) -> None:
         """Make the run of a genome and a seed twice; what is not the same again is in `notes` from then on.
 
         So it is where that takes too long. An environment that fails says so in the run itself; one that does not come
@@ -99,11 +94,11 @@ class EnvironmentRollout(Rollout):
         finally:
             probe._release(tile.kept, set())
 
-    def tally(self) -> NDArray[np.int64]:
+    def tally(self) -> Integers:
         """The counts `observed`, `clipped` and `unreal`, one after the other."""
         return np.array([self.observed, *self.clipped, *self.unreal], np.int64)
 
-    def add(self, tally: NDArray[np.int64]) -> None:
+    def add(self, tally: Integers) -> None:
         """Count what was observed elsewhere."""
         self.observed += int(tally[0])
         self.clipped += tally[1 : 1 + len(self.clipped)]
@@ -117,7 +112,7 @@ class EnvironmentRollout(Rollout):
         gave = f"the environment {self.task.scene.environment} itself {GAVE_NO_NUMBER}: {unreal}" if unreal else ""
         return tuple(filter(None, (self._flaw, gave, f"readings beyond their range: {beyond}" if beyond else "")))
 
-    def _shares(self, names: Sequence[str], counts: NDArray[np.int64]) -> str:
+    def _shares(self, names: Sequence[str], counts: Integers) -> str:
         """In words, the share of ticks in which something was true of each name; "" where it never was."""
         shares: dict[str, float] = {}  # of a sensor with several readings that of the worst
         for name, share in zip(names, (counts / max(1, self.observed)).tolist(), strict=True):
@@ -133,7 +128,7 @@ class EnvironmentRollout(Rollout):
     def tile(self, lanes: int) -> Tile:
         """Room for so many lanes, and for their environments."""
         tile = super().tile(lanes)
-        return Tile(tile.state, tile.memories, RunningEnvironments(tile.kept, self._stepper))
+        return Tile(tile.state, tile.memories, RunningEnvironments(self._stepper))
 
     def forget(self, tile: Tile, working: set[int]) -> None:
         """Forget all jobs but those, and give back their environments."""

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph.graph import Graph
+from mindrun.numbers.arrays import Singles
 from mindrun.sim.outside.making import BrokenEnvironmentError
 from mindrun.sim.outside.subprocess_stepper import stepper_for
 from mindrun.sim.outside.wiring import wiring_of
@@ -15,7 +16,7 @@ WITHOUT_PICTURES = "mindc run --trace and --record need no pictures of it."
 UNKNOWN_FAILURES = "actuators fail in this task, and a recording does not say when"
 TICKS_DRAWN_BEFORE = 10  # what is drawn may grow old by being drawn, such as the sparks of the lunar lander in 7 images
 
-Sent = Callable[[int, int], NDArray[np.float32]]
+Sent = Callable[[int, int], Singles]
 
 
 class SeenEpisode:

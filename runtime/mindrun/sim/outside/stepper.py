@@ -10,11 +10,11 @@ from typing import Any
 from weakref import finalize
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mindrun.numbers.arrays import Array, Doubles
 from mindrun.sim.outside import making
 from mindrun.sim.outside.making import BrokenEnvironmentError, first_line, foreign_code
-from mindrun.sim.outside.parts import Floats, PartReader, Place, Spaces, actions_of, sources_of, spaces_of
+from mindrun.sim.outside.parts import PartReader, Place, Spaces, actions_of, sources_of, spaces_of
 
 SEED_LIMIT = 1 << 31  # some environments take no larger ones
 REWARD_COLUMN, TERMINATED_COLUMN, TRUNCATED_COLUMN = -3, -2, -1  # where they stand in a row, behind what is observed
@@ -26,7 +26,7 @@ class EnvironmentRun:
 
     def __init__(self, seed: int, slots: int) -> None:
         self.number, self.seed, self.steps = next(_numbers), seed, 0
-        self.row: Floats = np.zeros(slots + 3)
+        self.row: Doubles = np.zeros(slots + 3)
 
     @property
     def is_over(self) -> bool:
@@ -91,7 +91,7 @@ class LocalStepper:
             for run in self._each(runs):
                 self._reset(run)
 
-    def step(self, runs: Sequence[EnvironmentRun], actions: Floats) -> None:
+    def step(self, runs: Sequence[EnvironmentRun], actions: Doubles) -> None:
         """Step each run: the numbers of its action, part after part [runs, numbers]."""
         _, acted = self._spaces
         with self._blaming():
@@ -105,7 +105,7 @@ class LocalStepper:
                 run.row[TERMINATED_COLUMN] = truth_of("terminated", terminated)
                 run.row[TRUNCATED_COLUMN] = truth_of("truncated", truncated)
 
-    def image(self, run: EnvironmentRun) -> NDArray[Any]:
+    def image(self, run: EnvironmentRun) -> Array:
         """The image of a run now [height, width, 3], red first; another array where it draws nothing."""
         with self._blaming():
             self._at = run

@@ -21,12 +21,11 @@ from threading import Lock
 from typing import Any
 from weakref import finalize
 
-from numpy.typing import NDArray
-
 from mindrun.errors import MindError
+from mindrun.numbers.arrays import Array, Doubles
 from mindrun.sim.outside import making
 from mindrun.sim.outside.making import BrokenEnvironmentError
-from mindrun.sim.outside.parts import Floats, Place, Spaces
+from mindrun.sim.outside.parts import Place, Spaces
 from mindrun.sim.outside.stepper import EnvironmentRun, LocalStepper, place_of
 
 STEP_SECONDS, VARIABLE = 60, "MIND_STEP_SECONDS"  # that an environment has for an answer; what says another number
@@ -179,13 +178,13 @@ class SubprocessStepper:
         """Begin runs again, each in its environment."""
         self._take("reset", runs)
 
-    def step(self, runs: Sequence[EnvironmentRun], actions: Floats) -> None:
+    def step(self, runs: Sequence[EnvironmentRun], actions: Doubles) -> None:
         """Step each run: the numbers of its action, part after part [runs, numbers]."""
         self._take("step", runs, actions)
 
-    def image(self, run: EnvironmentRun) -> NDArray[Any]:
+    def image(self, run: EnvironmentRun) -> Array:
         """The image of a run now [height, width, 3], red first; an empty array where it draws nothing."""
-        found: NDArray[Any] = self._ask("image", [run])
+        found: Array = self._ask("image", [run])
         return found
 
     def close(self, runs: Sequence[EnvironmentRun]) -> None:

@@ -7,12 +7,12 @@ from itertools import accumulate
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph
 from mindrun.kinds.environment import Slot
-from mindrun.sim.outside.parts import Floats, Place, SpacePart, Spaces, found
+from mindrun.numbers.arrays import Doubles, Integers, Singles
+from mindrun.sim.outside.parts import Place, SpacePart, Spaces, found
 
 WRAP = "Wrap the environment in one that has numbers instead, registered in a module beside the mind."
 
@@ -120,19 +120,19 @@ class EnvironmentWiring:
     there it is the k-th of some numbers, where of the actuators in some rows the k-th has the largest command.
     """
 
-    rows: NDArray[np.int64]
+    rows: Integers
     names: tuple[str, ...]
-    low: Floats
-    high: Floats
+    low: Doubles
+    high: Doubles
     places: tuple[Place, ...]
     action_numbers: int
-    driven: NDArray[np.int64]
-    to: NDArray[np.int64]
-    least: Floats
-    most: Floats
-    choices: tuple[tuple[int, NDArray[np.int64], NDArray[np.int64]], ...]
+    driven: Integers
+    to: Integers
+    least: Doubles
+    most: Doubles
+    choices: tuple[tuple[int, Integers, Integers], ...]
 
-    def actions(self, commands: NDArray[np.float32]) -> Floats:
+    def actions(self, commands: Singles) -> Doubles:
         """The actions [lanes, action_numbers] that commands [actuators, lanes] are."""
         given = commands.astype(np.float64)
         actions = np.zeros((commands.shape[1], self.action_numbers))
