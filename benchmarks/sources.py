@@ -13,7 +13,7 @@ from random import Random
 from benchmarks.grammar_lines import NUMBERS, line
 from mindlang.compiler.parse.explain import FOREIGN_WORDS
 from mindlang.compiler.syntax import NOUNS, SETTINGS, VERBS
-from mindlang.lint.rules import all_rules
+from mindlang.explaining.collection import RULE, codes
 
 ROOT = Path(__file__).parents[1]
 PIECE = re.compile(r"\w+|\s+|.", re.DOTALL)
@@ -99,7 +99,7 @@ def mutant_of(texts: Sequence[str], case: int) -> str:
 @cache
 def minds() -> tuple[str, ...]:
     """The small minds that are mutated most: the examples of the rules, most of which compile."""
-    rules = (text for rule in all_rules().values() for text in (*rule.good, *rule.bad))
+    rules = (text for rule in codes().values() if rule.noun == RULE for text in (*rule.right, *rule.wrong))
     return tuple(whole(text.partition("\n-- ")[0]) for text in rules)
 
 

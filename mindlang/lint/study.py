@@ -267,16 +267,34 @@ def study(compiled: Compiled) -> Study:
     return Study(compiled.mind, compiled.graph, lock)
 
 
-def once_a_line(check: Callable[[Study], Found]) -> Callable[[Study], Found]:
-    """A rule that tells once of a line which several tasks have."""
+Check = Callable[[Study], Found]
 
-    def checked(study: Study) -> Found:
-        found: dict[Span, Finding] = {}
-        for finding in check(study):
-            found.setdefault(finding.span, finding)
-        yield from found.values()
 
-    return checked
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """A rule and its code. What is of no use here may be of use `elsewhere`, in a mind that uses this one.
+
+    One that is told `once_a_line` speaks of lines that several tasks can have.
+    """
+
+    code: str
+    check: Check
+    elsewhere: bool
+    once_a_line: bool
+
+
+RULES: dict[str, Rule] = {}  # of the modules that have been imported
+
+
+def rule(elsewhere: bool = False, once_a_line: bool = False) -> Callable[[Check], Check]:
+    """Make a function a rule, whose code is its name with dashes."""
+
+    def register(check: Check) -> Check:
+        code = check.__name__.replace("_", "-")
+        RULES[code] = Rule(code, check, elsewhere, once_a_line)
+        return check
+
+    return register
 
 
 def removal(what: Declaration | Fact | Setting, title: str = "", is_safe: bool = False) -> Fix:
