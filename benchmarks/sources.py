@@ -11,7 +11,7 @@ from pathlib import Path
 from random import Random
 
 from benchmarks.grammar_lines import NUMBERS, line
-from mindlang.compiler.parse.explain import FOREIGN_WORDS
+from mindlang.compiler.parse.mistakes import common_mistakes
 from mindlang.compiler.syntax import NOUNS, SETTINGS, VERBS
 from mindlang.explaining.collection import RULE, codes
 
@@ -226,8 +226,8 @@ def _line(text: str, random: Random) -> str:
 
 def _word(text: str, random: Random) -> str:
     """What people write instead of a word of the language."""
-    known = random.choice(list(FOREIGN_WORDS))
-    return text.replace(known, random.choice(FOREIGN_WORDS[known].split()), random.choice((-1, 1)))
+    known = random.choice(list(common_mistakes().foreign_words))
+    return text.replace(known, random.choice(common_mistakes().foreign_words[known].split()), random.choice((-1, 1)))
 
 
 def _ends(text: str, random: Random) -> str:

@@ -14,7 +14,6 @@ BENCHMARKS, EXAMPLES = ROOT / "benchmarks", ROOT / "examples"
 FILE_LINES, FUNCTION_LINES, TEST_FILE_LINES = 400, 40, 450
 LONG_FILES = {
     "mindlang/compiler/syntax.py": "one dataclass for each thing that a line can say",
-    "mindlang/compiler/parse/mistakes.py": "one table, a row for each mistake; the first row that fits explains a line",
     "tests/sim/plain_world.py": "a whole world the obvious way, to be read at one go",
     "tests/lock/test_worlds.py": "one mind with every kind, and what is noticed of each",
 }
