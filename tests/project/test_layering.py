@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.project.sources import COMPILER, ROOT, RUNTIME, arrows, imported, modules, package, tree
+from tests.project.sources import COMPILER, ROOT, RUNTIME, arrows, imported, modules, nodes, package
 
 OUR_OWN = {"mindlang", "mindrun"}
 # whose names differ from what is imported
@@ -112,7 +112,7 @@ def test_weights_are_put_beside_a_graph_in_few_places() -> None:
     made = {
         path.relative_to(ROOT).as_posix()
         for path in modules(COMPILER, RUNTIME)
-        for node in ast.walk(tree(path))
+        for node in nodes(path)
         if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] == "Policy"
     }
     assert made == set(places)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, tree
+from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, nodes, tree
 
 BENCHMARKS, EXAMPLES = ROOT / "benchmarks", ROOT / "examples"
 FILE_LINES, FUNCTION_LINES, TEST_FILE_LINES = 400, 40, 450
@@ -72,7 +72,7 @@ def test_asserts_only_narrow_types() -> None:
     assert [
         f"{name(path)}:{node.lineno} {ast.unparse(node.test)}"
         for path in modules(COMPILER, RUNTIME)
-        for node in ast.walk(tree(path))
+        for node in nodes(path)
         if isinstance(node, ast.Assert) and not narrows(node.test)
     ] == []
 
@@ -94,7 +94,7 @@ def lines(path: Path) -> int:
 
 def definitions(path: Path) -> Iterator[ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef]:
     """Every function and class of a file, wherever it stands."""
-    for node in ast.walk(tree(path)):
+    for node in nodes(path):
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
             yield node
 
