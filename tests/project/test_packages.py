@@ -67,6 +67,7 @@ def wheels(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     return {name: built(source, "wheel", tmp_path_factory.mktemp(name)) for name, source in PROJECTS.items()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("project", PROJECTS)
 def test_a_source_archive_builds_the_same_wheel(
     project: str, archives: dict[str, Path], wheels: dict[str, Path], tmp_path: Path
