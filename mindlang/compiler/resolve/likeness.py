@@ -10,8 +10,7 @@ from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.names import Names
 from mindlang.compiler.references import DRIVABLE_NOUNS, READABLE_NOUNS
-from mindlang.compiler.resolve.parts import ONE_OF_TWO, said_once
-from mindlang.compiler.resolve.promises import resolve_promises
+from mindlang.compiler.resolve.parts import ONE_OF_TWO, promises, said_once
 from mindlang.compiler.syntax import (
     Declaration,
     Drives,
@@ -67,8 +66,8 @@ def alike(
         if twice := next((fact for fact in lines if names_.count(fact.name.text) > 1), None):
             message = f"{name} would {verb_of(twice).removesuffix('s')} {twice.name.text} twice."
             findings.error("repeated-input", twice.span, message, "Write something else in this line.")
-    promises = resolve_promises(own, names, widths, findings)
-    return model.Skill(name, other.function, reads, edges, False, own, other.owner, other.chooses, promises)
+    promised = promises(own, names, widths, findings)
+    return model.Skill(name, other.function, reads, edges, False, own, other.owner, other.chooses, promised)
 
 
 def _says_more(fact: Reads | Sends | Promise) -> bool:

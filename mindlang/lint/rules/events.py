@@ -1,10 +1,8 @@
 """What ends a task, is paid or counted."""
 
-from mindlang.compiler.diagnostic import Fix
-from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Contains, Counts, of_form
 from mindlang.lint.intervals import why_never
-from mindlang.lint.study import Finding, Found, Study, removal, rule
+from mindlang.lint.study import Finding, Found, Study, removal, rule, saying
 
 
 @rule()
@@ -42,7 +40,6 @@ def unsaid_outcome(study: Study) -> Found:
         reached = {event.thing for event in events if event.outcome == REACHED and event not in ending}
         for name, phrase in ((fact.name, fact.phrase) for fact in of_form(task.facts, Contains)):
             if name.text in reached and all(argument.key.text != REACHED for argument in phrase.arguments):
-                end = phrase.span.end
-                fix = Fix("Say reached moves", (Splice(phrase.span.source, end, end, " reached moves"),), is_safe=False)
                 hint = "Write reached stays, or reached moves to have it appear elsewhere as it once did."
+                fix = saying([phrase], "reached moves")
                 yield Finding(name.span, f"{name.text} stays where it is when it is reached.", hint, fix=fix)

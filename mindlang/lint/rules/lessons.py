@@ -1,7 +1,7 @@
 """Lessons that teach nobody, too early, twice, or in a world that lacks something."""
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from mindrun.graph.skill_sets import genes, learners
 from mindrun.kinds.learners import Learner
@@ -115,8 +115,7 @@ def noiseless_lesson(study: Study) -> Found:
     for written, lesson in zip(study.mind.lessons, study.graph.lessons, strict=True):
         if not study.mind.unit_metres or lesson.generations < LONG_GENERATIONS:
             continue
-        reads = (name for learner in learners(study.graph, lesson) for name in study.skills[learner].reads)
-        read = {root for name in reads for root in study.roots.get(name, ())}
+        read = _read_by(study, learners(study.graph, lesson))
         measured = (part for part in study.mind.sensors if part.name in read)
         noise = {part.name: part.kind.noise for part in measured if isinstance(part.kind, Physical)}
         varies = {(each.of, each.argument) for each in study.tasks[lesson.task].varies}
@@ -124,6 +123,12 @@ def noiseless_lesson(study: Study) -> Found:
             taught = f"{lesson.skill} is taught for {lesson.generations:,} generations without noise, for a robot."
             hint = f"Write noise 2% in the line of {next(iter(noise))}, or as much as the real sensor has."
             yield Finding(written.fact.span, taught, hint)
+
+
+def _read_by(study: Study, names: Iterable[str]) -> set[str]:
+    """The sensors and memories that skills read, and those from which these are computed at last."""
+    reads = {reading for name in names for reading in study.skills[name].reads}
+    return {root for reading in reads for root in study.roots.get(reading, ())}
 
 
 Said = tuple[str, str, str, str, bool, Learner]
@@ -174,8 +179,7 @@ def task_without_reward(study: Study) -> Found:
 @rule()
 def unmet_silence(study: Study) -> Found:
     taught = {learner for lesson in study.graph.lessons for learner in learners(study.graph, lesson)}
-    reads = {name for learner in taught for name in study.skills[learner].reads}
-    read = {root for name in reads for root in study.roots.get(name, ())}
+    read = _read_by(study, taught)
     for part in study.mind.sensors:
         kind = part.kind
         is_none = kind.shape and not any(kind.numbers)  # nothing is lost, and neutral is none of several

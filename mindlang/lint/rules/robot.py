@@ -1,8 +1,10 @@
 """What a robot is made of, and whether it fits its world."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from decimal import Decimal
 from itertools import combinations
 from math import hypot
+from typing import Any
 
 from mindrun.kinds.actuators.actuator import THRUST, ActuatorKind
 from mindrun.kinds.registry import arguments, kinds
@@ -10,10 +12,9 @@ from mindrun.numbers.quantity import Quantity, fits
 
 from mindlang.compiler.diagnostic import Label, listed
 from mindlang.compiler.model import Part
-from mindlang.compiler.syntax import Amount, Argument, Declaration, Name, Numbers, Tick, Use, of_form
-from mindlang.lint.study import Finding, Found, Study, rule
+from mindlang.compiler.syntax import Amount, Argument, Declaration, Name, Numbers, Phrase, Tick, Use, of_form
+from mindlang.lint.study import Finding, Found, Study, rule, saying
 from mindlang.lint.top_speed import farthest_step
-from mindlang.lint.unsaid import phrases_without, saying, short
 
 
 @rule()
@@ -113,15 +114,15 @@ def unsaid_range(study: Study) -> Found:
     speed = farthest_step(graph)[0] / graph.tick
     rooms = [task.scene.sides for task in graph.tasks]
     for sensor in study.mind.sensors:
-        (low, high), unsaid = sensor.kind.ends, phrases_without(study, "sensor", [sensor], "range")
+        (low, high), unsaid = sensor.kind.ends, _phrases_without(study, "sensor", [sensor], "range")
         if not high or not unsaid or not speed:
             continue
         far = max(max(sides) / 2 if low else hypot(*sides) for sides in rooms)
         most, unit = (speed, " a second") if sensor.kind.unit == "m/s" else (far, "")
         if most < LEAST_SHARE * high:
-            message = f"{sensor.name} measures up to {high:g} units{unit}, and here are no more than {short(most)}."
-            hint = f"Add range {short(most)}: it reads its whole 0 to 1 then."
-            yield Finding(sensor.span, message, hint, fix=saying(unsaid, f"range {short(most)}"))
+            message = f"{sensor.name} measures up to {high:g} units{unit}, and here are no more than {_short(most)}."
+            hint = f"Add range {_short(most)}: it reads its whole 0 to 1 then."
+            yield Finding(sensor.span, message, hint, fix=saying(unsaid, f"range {_short(most)}"))
 
 
 LEAST_LENGTHS, PROPOSED_LENGTHS, MOST_LENGTHS = 0.25, 2.0, 10.0  # a second
@@ -132,7 +133,7 @@ TOO_LARGE = "No thrust is that large: write lengths in a larger unit, such as 0.
 def unsaid_thrust(study: Study) -> Found:
     graph, body = study.graph, study.mind.body
     pushing = [part for part in study.mind.actuators if "thrust" in part.kind.varying]
-    unsaid = phrases_without(study, "actuator", pushing, "thrust")
+    unsaid = _phrases_without(study, "actuator", pushing, "thrust")
     varied = any(each.argument == "thrust" for task in graph.tasks for each in task.varies)
     speed, length = farthest_step(graph)[0] / graph.tick, 2 * graph.body.front
     if not speed or varied or len(unsaid) < len(pushing) or LEAST_LENGTHS <= speed / length <= MOST_LENGTHS:
@@ -140,10 +141,21 @@ def unsaid_thrust(study: Study) -> Found:
     default = float(pushing[0].kind.row(graph.body)["thrust"])  # that of all: wheels and thrusters have the same
     thrust = default * PROPOSED_LENGTHS * length / speed
     names = listed([part.name for part in pushing], "and")
-    pace = f"{short(speed, 3)} units a second, {short(speed / length)} times its length"
+    pace = f"{_short(speed, 3)} units a second, {_short(speed / length)} times its length"
     message = f"At full thrust {body.name} goes {pace}, with a thrust of {default:g} that nobody says."
     if not fits(THRUST, thrust):
         yield Finding(pushing[0].span, message, TOO_LARGE)
         return
-    hint = f"Add thrust {short(thrust)} to {names}: {PROPOSED_LENGTHS:g} times its length a second."
-    yield Finding(pushing[0].span, message, hint, fix=saying(unsaid, f"thrust {short(thrust)}"))
+    hint = f"Add thrust {_short(thrust)} to {names}: {PROPOSED_LENGTHS:g} times its length a second."
+    yield Finding(pushing[0].span, message, hint, fix=saying(unsaid, f"thrust {_short(thrust)}"))
+
+
+def _phrases_without(study: Study, noun: str, parts: Iterable[Part[Any]], argument: str) -> list[Phrase]:
+    """The kinds of some parts as they are written, of those that do not say an argument."""
+    phrases = (study.mind.names.table[noun][part.name].header.phrase for part in parts)
+    return [each for each in phrases if each and all(said.key.text != argument for said in each.arguments)]
+
+
+def _short(value: float, digits: int = 2) -> str:
+    """A number of so many digits as the language writes it, without an exponent."""
+    return f"{Decimal(f'{value:.{digits}g}'):f}"
