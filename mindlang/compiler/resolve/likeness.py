@@ -77,10 +77,6 @@ def _says_more(fact: Reads | Sends | Promise) -> bool:
     )
 
 
-def _targets(skill: model.Skill, *nouns: str) -> tuple[str, ...]:
-    return tuple(edge.target for edge in skill.edges if edge.to in nouns)
-
-
 def _edge(edge: model.Edge, sent: tuple[str, Receiver], read: Mapping[str, tuple[str, str]]) -> model.Edge:
     """An edge to where it is sent instead, with what is read instead in its expressions."""
 
@@ -108,7 +104,8 @@ def _replaced(
 ) -> str:
     """What a line replaces of the other skill, an input by one of its width; empty after reporting an error."""
     name, verb = fact.name.text, verb_of(fact)
-    known = other.reads if isinstance(fact, Reads) else _targets(other, *NOUNS[type(fact)])
+    sent = tuple(edge.target for edge in other.edges if edge.to in NOUNS[type(fact)])
+    known = other.reads if isinstance(fact, Reads) else sent
     has = f"{other.name} {verb} {listed(known, 'and') if known else 'nothing'}."
     if fact.stands_for is None:
         message = f"It is not said what {name} stands for."

@@ -13,9 +13,6 @@ from mindlang.lint.intervals import interval, is_constant
 from mindlang.lint.study import Finding, Found, Study, rule
 
 MAX_CHOICES = 6  # the worst leak of 1 % is 0.39 of a command with six, 0.56 with seven
-HEAD = "\nsensor eye is range_finder at 0 deg\nmaster A\nskill Go is rule\n  drives left_wheel at 1\n"
-CHOICE = "skill {} is mlp\n  reads eye\n  influences {}\n  influences Go\n"
-LAST = "skill Stop is rule\n  drives left_wheel at 0.5\n"
 
 
 @rule()

@@ -61,11 +61,7 @@ def _divides_by_zero(value: Expression, all_: Sequence[Comparison], of: Conditio
         return ranges.get(name, world.reading(name))
 
     can_hold = all(low <= high for low, high in ranges.values())
-    return can_hold and _has_zero(divisors(value, reading, world.each(of)))
-
-
-def _has_zero(found: Sequence[Interval]) -> bool:
-    return any(low <= 0 <= high for low, high in found)
+    return can_hold and any(low <= 0 <= high for low, high in divisors(value, reading, world.each(of)))
 
 
 def _within(of: Interval, compare: str, number: float) -> Interval:
