@@ -79,6 +79,7 @@ def test_a_source_archive_builds_the_same_wheel(
     assert members(built(source, "wheel", tmp_path / "wheel")) == members(wheels[project])
 
 
+@pytest.mark.slow
 def test_the_source_archive_has_what_working_on_it_needs(archives: dict[str, Path]) -> None:
     with tarfile.open(archives["mindlang"]) as archive:
         names = {name.partition("/")[2] for name in archive.getnames()}
