@@ -11,9 +11,9 @@ from pathlib import Path
 from random import Random
 
 from benchmarks.grammar_lines import NUMBERS, line
-from mindlang.compiler.parse.explain import FOREIGN_WORDS
+from mindlang.compiler.parse.mistakes import common_mistakes
 from mindlang.compiler.syntax import NOUNS, SETTINGS, VERBS
-from mindlang.lint.rules import all_rules
+from mindlang.explaining.collection import RULE, codes
 
 ROOT = Path(__file__).parents[1]
 PIECE = re.compile(r"\w+|\s+|.", re.DOTALL)
@@ -99,7 +99,7 @@ def mutant_of(texts: Sequence[str], case: int) -> str:
 @cache
 def minds() -> tuple[str, ...]:
     """The small minds that are mutated most: the examples of the rules, most of which compile."""
-    rules = (text for rule in all_rules().values() for text in (*rule.good, *rule.bad))
+    rules = (text for rule in codes().values() if rule.noun == RULE for text in (*rule.right, *rule.wrong))
     return tuple(whole(text.partition("\n-- ")[0]) for text in rules)
 
 
@@ -226,8 +226,8 @@ def _line(text: str, random: Random) -> str:
 
 def _word(text: str, random: Random) -> str:
     """What people write instead of a word of the language."""
-    known = random.choice(list(FOREIGN_WORDS))
-    return text.replace(known, random.choice(FOREIGN_WORDS[known].split()), random.choice((-1, 1)))
+    known = random.choice(list(common_mistakes().foreign_words))
+    return text.replace(known, random.choice(common_mistakes().foreign_words[known].split()), random.choice((-1, 1)))
 
 
 def _ends(text: str, random: Random) -> str:

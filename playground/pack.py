@@ -40,7 +40,7 @@ def files() -> Iterator[tuple[str, Path]]:
     ):
         for path in sorted(folder.rglob("*")):
             place = f"{package}/{path.relative_to(folder).as_posix()}"
-            if path.suffix in {".py", ".lark", ".md"} and not place.startswith(LEFT_OUT):
+            if path.suffix in {".py", ".lark", ".md", ".toml"} and not place.startswith(LEFT_OUT):
                 yield place, path
     yield "looking.py", HERE / "looking.py"
 

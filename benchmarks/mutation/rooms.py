@@ -232,11 +232,8 @@ ROOMS = {
     "beginnings": Room(
         (
             *(f"mindlang/compiler/{name}.py" for name in ("beginning", "resolve/worlds")),
-            *(f"mindlang/lint/rules/{name}.py" for name in ("chance_meeting", "crowded_world", "nothing_drawn")),
-            *(
-                f"mindlang/lint/rules/{name}.py"
-                for name in ("paid_at_once", "walled_off", "wall_on_the_way", "standing_learner")
-            ),
+            *(f"mindlang/lint/rules/{name}.py" for name in ("crowded_world", "lessons", "paid_at_once")),
+            *(f"mindlang/lint/rules/{name}.py" for name in ("walled_off", "worlds")),
         ),
         (
             "tests/lint/test_floor.py",
@@ -279,8 +276,7 @@ ROOMS = {
                 )
             ),
             *(f"mindlang/{name}.py" for name in ("lint/intervals", "run/paired_difference", "robot/claims")),
-            *(f"mindlang/lint/rules/{name}.py" for name in ("zero_division", "direction_as_number", "coarse_tick")),
-            *(f"mindlang/lint/rules/{name}.py" for name in ("unsaid_thrust", "unsaid_range")),
+            *(f"mindlang/lint/rules/{name}.py" for name in ("zero_division", "direction_as_number", "robot")),
         ),
         (
             "tests/run/test_paired_difference.py",

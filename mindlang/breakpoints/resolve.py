@@ -172,7 +172,7 @@ class _Resolver:
         found = resolve_expressions(compared, visible, self.findings)
         if len(self.findings.diagnostics) > before:
             return Holds((), (), ())
-        program = lower.lower_condition(found, places)
+        program = lower.program_of(found, places)
         asked = leaves(program, "reading")
         for name in self.subject.unmeasured:
             if places.readings[name][0] in asked:

@@ -48,8 +48,12 @@ def rectangle_outline(of: Rectangle) -> Outline:
 
 
 def overlap(one: Outline, other: Outline) -> bool:
-    """True if two convex outlines overlap: no axis separates them (separating axis theorem)."""
-    return all(_cover(one.span(axis), other.span(axis)) for axis in _axes(one, other))
+    """True if two convex outlines overlap in more than an end: no axis separates them (separating axis theorem)."""
+    for axis in _axes(one, other):
+        (low, high), (least, most) = one.span(axis), other.span(axis)
+        if not (low < most - TOUCHING_UNITS and least < high - TOUCHING_UNITS):
+            return False
+    return True
 
 
 def _axes(one: Outline, other: Outline) -> Iterator[Place]:
@@ -70,11 +74,6 @@ def _axes(one: Outline, other: Outline) -> Iterator[Place]:
 def _direction(x: float, y: float) -> Iterator[Place]:
     if 0 < (length := hypot(x, y)) < inf:
         yield x / length, y / length
-
-
-def _cover(one: Place, other: Place) -> bool:
-    """True if two intervals (low, high) overlap in more than an end; an interval may be a point."""
-    return one[0] < other[1] - TOUCHING_UNITS and other[0] < one[1] - TOUCHING_UNITS
 
 
 def role(kind: ThingKind) -> Role:

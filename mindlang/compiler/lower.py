@@ -74,7 +74,7 @@ def _skills(mind: model.Mind, readings: Mapping[str, tuple[int, int]]) -> Iterat
 
 def _promise(promise: model.Promise, places: Places) -> graph.Promise:
     word: Any = verb_of(promise.fact)
-    return graph.Promise(word, promise.text, lower_condition(promise.when, places))
+    return graph.Promise(word, promise.text, program_of(promise.when, places))
 
 
 def _edges(skill: model.Skill, numbers: Mapping[str, Mapping[str, int]], places: Places) -> Iterator[graph.Edge]:
@@ -82,9 +82,9 @@ def _edges(skill: model.Skill, numbers: Mapping[str, Mapping[str, int]], places:
     for edge in skill.edges:
         gate = None
         if edge.gate:
-            otherwise = _program(edge.gate.otherwise, places) if edge.gate.otherwise else None
-            gate = graph.Gate(lower_condition(edge.gate.when, places), otherwise)
-        output, value = (None, _program(edge.at, places)) if edge.at else (next(outputs), ())
+            otherwise = program_of(edge.gate.otherwise, places) if edge.gate.otherwise else None
+            gate = graph.Gate(program_of(edge.gate.when, places), otherwise)
+        output, value = (None, program_of(edge.at, places)) if edge.at else (next(outputs), ())
         over: list[graph.Sink] = [
             (noun, numbers[noun][name]) for name in edge.over for noun in DRIVABLE_NOUNS if name in numbers[noun]
         ]
@@ -96,7 +96,7 @@ def _task(task: model.Task, places: Places) -> graph.Task:
     ends = tuple(dict.fromkeys(_end(end, events, places) for end in task.ends))
     rewards = tuple(_reward(reward, events, places) for reward in task.rewards)
     counts = tuple(dict.fromkeys(_event(event, events) for event in task.counts))
-    whens = ((each, lower_condition(each.when, places) if each.when else ()) for each in task.things)
+    whens = ((each, program_of(each.when, places) if each.when else ()) for each in task.things)
     things = tuple(graph.Thing(each.name, each.kind, when, each.by, each.many) for each, when in whens)
     return graph.Task(
         task.name, task.scene, things, task.ticks, tuple(places.measures), tuple(events), ends, rewards, counts
@@ -108,7 +108,7 @@ def _end(end: model.End, events: dict[Any, int], places: Places) -> graph.End:
     if end.when is None:
         return graph.End(event, end.times, None, end.succeeds, opens=end.opens)
     text = spaced(f"ends {said(end.fact.when)}").removeprefix("ends when ")
-    return graph.End(event, end.times, lower_condition(end.when, places), end.succeeds, text, end.opens)
+    return graph.End(event, end.times, program_of(end.when, places), end.succeeds, text, end.opens)
 
 
 def _event(event: EventKind, known: dict[Any, int]) -> int:
@@ -127,19 +127,16 @@ def _index(value: T, known: dict[T, int]) -> int:
 def _reward(reward: model.Reward, events: dict[Any, int], places: Places) -> graph.Reward:
     return graph.Reward(
         spaced(said(reward.fact)),
-        _program(reward.amount, places),
+        program_of(reward.amount, places),
         None if reward.on is None else _event(reward.on, events),
         None if reward.each is None else places.readings[reward.each],
-        None if reward.when is None else lower_condition(reward.when, places),
+        None if reward.when is None else program_of(reward.when, places),
     )
 
 
-def lower_condition(when: When, places: Places) -> graph.Program:
-    """A condition as a postfix program: comparisons joined by `and` into alternatives, these by `or`."""
-    return _program(when, places)
+def program_of(expression: Expression | When, places: Places) -> graph.Program:
+    """An expression or a condition as a postfix program."""
 
-
-def _program(expression: Expression | When, places: Places) -> graph.Program:
     def placed(word: str, operand: Any) -> tuple[str, float | int]:
         match word:
             case "reading":

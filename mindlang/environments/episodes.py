@@ -14,6 +14,7 @@ from mindrun.errors import MindError
 from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import reachable
+from mindrun.numbers.arrays import Bools
 from mindrun.sim.commanded_lanes import CommandedLanes, commanded_lanes, ended_by
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import State
@@ -33,7 +34,6 @@ from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.setup import RunSetup, untaught_skills
 
 Floats = NDArray[np.float32]
-Bools = NDArray[np.bool_]
 SEED_COUNT = 1 << 64  # layouts
 REAL_NUMBERS = "biuf"  # kinds of arrays: truth values, whole numbers, others
 MAX_DRAWN_SEED = 1 << 63  # so many that no two episodes are drawn the same

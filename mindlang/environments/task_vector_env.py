@@ -12,9 +12,10 @@ from gymnasium.utils.seeding import np_random
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from mindrun.errors import MindError
+from mindrun.numbers.arrays import Bools
 from numpy.typing import NDArray
 
-from mindlang.environments.episodes import Floats, Bools, check_render_mode, episodes_of, image_of, to_layouts, unit_box
+from mindlang.environments.episodes import Floats, check_render_mode, episodes_of, image_of, to_layouts, unit_box
 from mindlang.pictures.canvas import Image
 from mindlang.run.setup import layouts as children
 

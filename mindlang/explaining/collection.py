@@ -2,13 +2,13 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
+from pathlib import Path
 
 from mindlang.compiler.diagnostic import ERRORS, did_you_mean, listed
-from mindlang.explaining.article import Article, sections, titled
+from mindlang.explaining.article import Article, sections
 from mindlang.explaining.drivers import driver_articles
 from mindlang.explaining.kinds import kind_articles
 from mindlang.explaining.words import word_articles
-from mindlang.lint.rules import all_rules
 
 ERROR, RULE = "error", "lint rule"  # sorts of codes
 # Nouns of kinds that people say as well.
@@ -44,17 +44,15 @@ def unknown_hint(asked: str, among: Iterable[Article]) -> str:
 @cache
 def codes() -> dict[str, Article]:
     """All codes: errors in the order of their chapters, then the lint rules."""
-    return {each.name: each for each in (*error_articles(), *_rules())}
+    return {each.name: each for each in (*error_articles(), *_of_codes("rules.md", RULE))}
 
 
 def error_articles() -> Iterator[Article]:
     """The errors."""
-    for each in sections(ERRORS):
+    return _of_codes(ERRORS, ERROR)
+
+
+def _of_codes(texts: str | Path, sort: str) -> Iterator[Article]:
+    for each in sections(texts):
         wrong, right = each.labelled("mind bad"), each.labelled("mind good")
-        yield Article(each.name, ERROR, ERROR, each.chapter, each.title, each.text, wrong=wrong, right=right)
-
-
-def _rules() -> Iterator[Article]:
-    for rule in all_rules().values():
-        wrong, right = (tuple(mind.lstrip("\n") for mind in minds) for minds in (rule.bad, rule.good))
-        yield Article(rule.code, RULE, RULE, "Lint rules", *titled(rule.text), wrong=wrong, right=right)
+        yield Article(each.name, sort, sort, each.chapter, each.title, each.text, wrong=wrong, right=right)

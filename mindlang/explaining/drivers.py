@@ -49,14 +49,9 @@ def _article(noun: str, name: str, more: Section | None) -> Article:
 def parse_wiring(lines: str, example: str) -> DeviceWiring:
     """The wiring that these lines say, where options have the pins of an example in YAML."""
     device, *said = lines.strip().splitlines()
-    options = {key: [int(number) for number in re.findall(r"\d+", value)] for key, value in _options(example)}
+    pairs = (line.strip().partition(": ") for line in example.splitlines()[1:])
+    options = {key: [int(number) for number in re.findall(r"\d+", value)] for key, _, value in pairs}
     return DeviceWiring(device, tuple(wire for line in said for wire in _wires(line, options)))
-
-
-def _options(example: str) -> Iterator[tuple[str, str]]:
-    for line in example.splitlines()[1:]:
-        key, _, value = line.strip().partition(": ")
-        yield key, value
 
 
 def _wires(line: str, options: Mapping[str, list[int]]) -> Iterator[Wire]:

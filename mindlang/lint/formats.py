@@ -11,7 +11,7 @@ from mindrun.files.printable import visible
 
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Span
-from mindlang.lint.rules import all_rules
+from mindlang.explaining.article import sections
 
 SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 
@@ -19,10 +19,9 @@ SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 def sarif(found: Iterable[Diagnostic]) -> dict[str, Any]:
     """Diagnostics as a SARIF log of one run of mindc; paths are as they were said on the command line."""
     results = [_result(each) for each in found]
-    rules = all_rules()
+    titles = {each.name: each.title for each in sections("rules.md")}
     codes = sorted({result["ruleId"] for result in results})
-    titles = {code: rules[code].text.splitlines()[0] if code in rules else code for code in codes}
-    described = [{"id": code, "shortDescription": {"text": title}} for code, title in titles.items()]
+    described = [{"id": code, "shortDescription": {"text": titles.get(code, code)}} for code in codes]
     driver = {"name": "mindc", "version": version("mindlang"), "rules": described}
     run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": results}
     return {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}

@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass, replace
 from operator import attrgetter
 from pathlib import Path
+from typing import Any
 
 from mindrun.files.regular_files import read_regular
 
@@ -18,7 +19,7 @@ from mindlang.compiler.splice import Splice, spliced
 from mindlang.editing import transaction
 from mindlang.editing.neighbours import neighbours
 from mindlang.lint.rules import all_rules
-from mindlang.lint.study import study
+from mindlang.lint.study import Finding, Rule, Study, study
 from mindlang.lock import LockError
 
 MAX_FIX_ROUNDS = 100  # a fix may make room for another
@@ -36,7 +37,7 @@ def lint(compiled: Compiled, codes: Collection[str] | None = None) -> list[Diagn
         return list(compiled.diagnostics)
     about = study(compiled)
     held = [rule for code, rule in all_rules().items() if codes is None or code in codes]
-    found = [(rule, finding) for rule in held for finding in rule.check(about)]
+    found = [(rule, finding) for rule in held for finding in _told(rule, about)]
     named = _named_elsewhere(compiled) if any(rule.elsewhere for rule, _ in found) else set()
     own = (
         Diagnostic(rule.code, each.message, each.span, each.hint, each.labels, "warning", each.fix)
@@ -45,6 +46,14 @@ def lint(compiled: Compiled, codes: Collection[str] | None = None) -> list[Diagn
     )
     shown = each_family_once(own, about.mind.files[0].families)
     return [*compiled.diagnostics, *(each for each in shown if not _is_silenced(each))]
+
+
+def _told(rule: Rule, about: Study) -> Iterable[Finding]:
+    """What a rule finds; of those of a line that several tasks have the first."""
+    found: dict[Any, Finding] = {}
+    for number, each in enumerate(rule.check(about)):
+        found.setdefault(each.span if rule.once_a_line else number, each)
+    return found.values()
 
 
 def _named_elsewhere(compiled: Compiled) -> set[str]:

@@ -19,7 +19,8 @@ from mindlang.compiler.hierarchy import reverse_topological_order, topological_o
 from mindlang.compiler.model import Edge, End, Mind, Part, Promise, Reward, Skill, Task, source_graph
 from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Source, Span
-from mindlang.compiler.syntax import Declaration, Fact, Setting, When, expressions_in
+from mindlang.compiler.splice import Splice
+from mindlang.compiler.syntax import Declaration, Fact, Phrase, Setting, When, expressions_in
 from mindlang.editing.insertion import first_line, remove_lines, without_declarations
 from mindlang.lint.intervals import Range, interval, why_never
 from mindlang.lock import Lock, lock_sources, read_locks
@@ -172,11 +173,8 @@ class Study:
     @cached_property
     def is_exhausted(self) -> bool:
         """True if a task asks for exhaustion, an event of the battery that does not name it."""
-        ending = (end.event for task in self.mind.tasks for end in task.ends)
-        paid = (reward.on for task in self.mind.tasks for reward in task.rewards)
-        counted = (event for task in self.mind.tasks for event in task.counts)
-        events = (single for event in (*ending, *paid, *counted) if event for single in event.single)
-        return any(event.is_of_battery for event in events)
+        events = (event for task in self.mind.tasks for event in task.events if event)
+        return any(single.is_of_battery for event in events for single in event.single)
 
     @cached_property
     def used(self) -> set[tuple[str, str]]:
@@ -267,16 +265,34 @@ def study(compiled: Compiled) -> Study:
     return Study(compiled.mind, compiled.graph, lock)
 
 
-def once_a_line(check: Callable[[Study], Found]) -> Callable[[Study], Found]:
-    """A rule that tells once of a line which several tasks have."""
+Check = Callable[[Study], Found]
 
-    def checked(study: Study) -> Found:
-        found: dict[Span, Finding] = {}
-        for finding in check(study):
-            found.setdefault(finding.span, finding)
-        yield from found.values()
 
-    return checked
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """A rule and its code. What is of no use here may be of use `elsewhere`, in a mind that uses this one.
+
+    One that is told `once_a_line` speaks of lines that several tasks can have.
+    """
+
+    code: str
+    check: Check
+    elsewhere: bool
+    once_a_line: bool
+
+
+RULES: dict[str, Rule] = {}  # of the modules that have been imported
+
+
+def rule(elsewhere: bool = False, once_a_line: bool = False) -> Callable[[Check], Check]:
+    """Make a function a rule, whose code is its name with dashes."""
+
+    def register(check: Check) -> Check:
+        code = check.__name__.replace("_", "-")
+        RULES[code] = Rule(code, check, elsewhere, once_a_line)
+        return check
+
+    return register
 
 
 def removal(what: Declaration | Fact | Setting, title: str = "", is_safe: bool = False) -> Fix:
@@ -285,6 +301,12 @@ def removal(what: Declaration | Fact | Setting, title: str = "", is_safe: bool =
         return Fix(title or f"Remove {what.header.name.text}", without_declarations([what]), is_safe)
     line = first_line(what.span)
     return Fix(title or "Remove the line", (remove_lines(line, line),), is_safe)
+
+
+def saying(phrases: Iterable[Phrase], text: str) -> Fix:
+    """The fix that writes an argument behind each of some kinds. It is not safe: the robot becomes another one."""
+    ends = dict.fromkeys((phrase.span.source, phrase.span.end) for phrase in phrases)
+    return Fix(f"Say {text}", tuple(Splice(source, end, end, f" {text}") for source, end in ends), is_safe=False)
 
 
 def is_zero_influence(edge: Edge) -> bool:

@@ -16,11 +16,12 @@ from mindlang.breakpoints.resolve import BreakpointFile, breakpoints_of, load_br
 from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import MAX_UNREADABLE_LINES, parse_stops
-from mindlang.compiler.parse.mistakes import MISTAKES, STOP_MISTAKES, Mistake
+from mindlang.compiler.parse.mistakes import Mistake, common_mistakes
 from mindlang.compiler.source import Source
 from tests.breakpoints.subjects import subject
 
 CASES = sorted(Path(__file__).parent.glob("wrong*/*.break"))
+KNOWN = common_mistakes()
 
 
 def read(text: str, has_task: bool = True) -> BreakpointFile:
@@ -40,7 +41,7 @@ def test_one_message_for_one_mistake(path: Path, monkeypatch: pytest.MonkeyPatch
     assert found.diagnostics[0].hint
 
 
-@pytest.mark.parametrize("mistake", sorted({*STOP_MISTAKES} - {*MISTAKES}, key=repr), ids=lambda each: each.code)
+@pytest.mark.parametrize("mistake", sorted({*KNOWN.stops} - {*KNOWN.lines}, key=repr), ids=lambda each: each.code)
 def test_the_example_of_a_mistake_is_explained_by_it(mistake: Mistake) -> None:
     findings = Findings()
     parse_stops(Source("example", mistake.example), findings)

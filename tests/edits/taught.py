@@ -7,13 +7,13 @@ from mindrun.graph.graph import Graph
 from mindrun.graph.weights import genes
 
 from mindlang.compiler.compile import load
-from mindlang.lint.examples import WORLD
 from mindlang.lock import Taught, lock_path, read_lock, read_locks
 from mindlang.lock.blobs import record
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import Status, key_of_taught, status
 from mindlang.lock.training_world import TrainingWorld
 from mindlang.lock.world_facts import Worlds
+from tests.lint.minds import WORLD
 
 MIND = """\
 # Two skills and one above them.

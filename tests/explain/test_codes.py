@@ -8,6 +8,7 @@ import pytest
 from mindlang.breakpoints.resolve import breakpoints_of
 from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Diagnostic
+from mindlang.compiler.parse.mistakes import common_mistakes
 from mindlang.compiler.resolve.curricula import SWITCHES
 from mindlang.compiler.source import Source
 from mindlang.explaining.article import Article
@@ -15,7 +16,7 @@ from mindlang.explaining.collection import ERROR, error_articles
 from mindlang.explaining.collection import codes as all_codes
 from tests.breakpoints.subjects import subject
 from tests.explain.examples import ENVIRONMENTS, write
-from tests.project.sources import COMPILER, RUNTIME, modules, tree
+from tests.project.sources import COMPILER, RUNTIME, modules, nodes
 
 ALL = list(error_articles())
 EMITTERS = {
@@ -23,7 +24,6 @@ EMITTERS = {
     "refuse",
     "Diagnostic",
     "Flaw",
-    "Mistake",
     "ThingMistake",
     "Misfit",
     "_refuse",
@@ -58,7 +58,7 @@ def emitted() -> set[str]:
             COMPILER, RUNTIME / "kinds" / "things", RUNTIME / "kinds" / "sensors", RUNTIME / "sim" / "outside"
         )
         if path.parent != COMPILER / "robot"
-        for node in ast.walk(tree(path))
+        for node in nodes(path)
     ):
         if isinstance(node, ast.Call) and _name(node.func) in EMITTERS and node.args:
             match node.args[0]:
@@ -68,7 +68,8 @@ def emitted() -> set[str]:
                     found |= MADE[ast.unparse(made)]
                 case other if isinstance(other, ast.JoinedStr):
                     pytest.fail(f"{ast.unparse(other)} makes codes that this test does not know")
-    return found | NEEDED
+    known = common_mistakes()
+    return found | NEEDED | {each.code for each in (*known.openings, *known.lines, *known.stops)}
 
 
 def _name(function: ast.expr) -> str:

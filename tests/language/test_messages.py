@@ -12,12 +12,12 @@ from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.compile import compile_source, load
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
-from mindlang.compiler.parse.explain import FOREIGN_WORDS, LINES
-from mindlang.compiler.parse.mistakes import MISTAKES, OPENINGS, Mistake
+from mindlang.compiler.parse.mistakes import Mistake, common_mistakes
 from mindlang.compiler.source import Source
 
 HERE = Path(__file__).parent
 CASES = sorted((HERE / "wrong").glob("*.mind"))
+KNOWN = common_mistakes()
 
 
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
@@ -38,7 +38,7 @@ def test_the_program_that_the_cases_change_is_right() -> None:
     assert load(HERE / "right.mind").diagnostics == ()
 
 
-@pytest.mark.parametrize("mistake", [*OPENINGS, *MISTAKES], ids=lambda mistake: mistake.code)
+@pytest.mark.parametrize("mistake", [*KNOWN.openings, *KNOWN.lines], ids=lambda mistake: mistake.code)
 def test_the_example_of_a_mistake_is_explained_by_it(mistake: Mistake) -> None:
     findings = Findings()
     parse(Source("example", mistake.example), findings)
@@ -47,7 +47,7 @@ def test_the_example_of_a_mistake_is_explained_by_it(mistake: Mistake) -> None:
     assert "{" not in findings.diagnostics[0].message + findings.diagnostics[0].hint
 
 
-@pytest.mark.parametrize("line", [each for line in LINES.values() for each in line.split(", or ")])
+@pytest.mark.parametrize("line", [each for line in KNOWN.right.values() for each in line.split(", or ")])
 def test_the_lines_that_hints_show_can_be_read(line: str) -> None:
     findings = Findings()
     parse(Source("example", f"skill Above is rule\n{line}"), findings)
@@ -55,7 +55,7 @@ def test_the_lines_that_hints_show_can_be_read(line: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("word", "known"), [(word, known) for known, words in FOREIGN_WORDS.items() for word in words.split()]
+    ("word", "known"), [(word, known) for known, words in KNOWN.foreign_words.items() for word in words.split()]
 )
 def test_what_people_write_for_a_word_is_answered_by_it(word: str, known: str) -> None:
     findings = Findings()
@@ -64,7 +64,7 @@ def test_what_people_write_for_a_word_is_answered_by_it(word: str, known: str) -
 
 
 def test_no_word_of_the_language_is_one_that_people_write_for_another() -> None:
-    assert {word for words in FOREIGN_WORDS.values() for word in words.split()} & set(LINES) == set()
+    assert {word for words in KNOWN.foreign_words.values() for word in words.split()} & set(KNOWN.right) == set()
 
 
 def test_all_bad_lines_are_reported_in_one_go_and_without_echoes() -> None:

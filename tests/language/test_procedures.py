@@ -243,8 +243,8 @@ def test_a_text_of_deep_sums_ends_in_a_sentence() -> None:
 
 @pytest.mark.parametrize("read", ["", "v0 = open\n"])
 def test_names_that_are_given_to_one_another_have_an_end(read: str) -> None:
-    """Each of forty stands for what all others do, and for attributes of it."""
-    given = (f"v{i} = v{j} if v{i} else v{j}.next\n" for i in range(40) for j in range(40))
+    """Each of twenty stands for what all others do, and for attributes of it."""
+    given = (f"v{i} = v{j} if v{i} else v{j}.next\n" for i in range(20) for j in range(20))
     text = f"{read}{''.join(given)}def turn(a, b, c): return v7('w'), 1"
     with pytest.raises(ProcedureError, match="a file with open") if read else nullcontext():
         fit("calls.turn", text, 3, 2)

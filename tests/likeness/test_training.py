@@ -6,8 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mindrun.engine.engine import Engine
+from mindrun.errors import MindError
 from mindrun.train.run_folder import open_run
 
+import mindlang
 from mindlang.compiler.compile import load
 from mindlang.editing.apply import apply_edit, write
 from mindlang.editing.edits.unshare import unshare
@@ -17,7 +19,6 @@ from mindlang.lock.report import rows
 from mindlang.lock.status import make_ready
 from mindlang.run.setup import set_up
 from tests.language.examples import COLLECT
-from tests.train.test_train_command import train_apart
 
 MIND = """\
 tick 1/60 s
@@ -75,10 +76,12 @@ def taught(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The file of a mind all of whose lessons have been taught."""
     folder = tmp_path_factory.mktemp("alike")
     (folder / "m.mind").write_text(MIND)
-    done = train_apart(folder, "m.mind", "--seed", "1", "--json")
-    assert done.returncode == 0, done.stderr
-    (folder / "results.json").write_text(f"[{','.join(done.stdout.splitlines())}]")
+    (folder / "results.json").write_text(json.dumps(train(folder / "m.mind")))
     return folder / "m.mind"
+
+
+def train(path: Path, *skills: str) -> list[dict]:
+    return mindlang.load(path).train(*skills, seed=1, runs=path.with_name("runs"))
 
 
 def results(path: Path) -> list[dict]:
@@ -98,8 +101,7 @@ def test_then_there_is_nothing_to_do(taught: Path) -> None:
     found = load(taught)
     assert found.graph is not None
     assert [row.remarks for row in rows(found.graph, [taught])] == [()] * 4
-    again = train_apart(taught.parent, "m.mind", "--json")
-    assert (again.returncode, again.stdout) == (0, "")
+    assert train(taught) == []
 
 
 def test_a_run_keeps_the_copy_that_it_began_with(taught: Path) -> None:
@@ -114,17 +116,17 @@ def test_a_run_keeps_the_copy_that_it_began_with(taught: Path) -> None:
 
 def test_the_same_seed_teaches_the_same(taught: Path, tmp_path: Path) -> None:
     (tmp_path / "m.mind").write_text(MIND)
-    assert train_apart(tmp_path, "m.mind", "Go", "Own", "--seed", "1", "-q").returncode == 0
+    train(tmp_path / "m.mind", "Go", "Own")
     lock = read_lock(tmp_path / "m.lock")
     assert lock["Own"].weights == results(taught)[1]["weights"]["Own"]
 
 
 def test_a_lesson_waits_for_the_weights_that_it_begins_with(tmp_path: Path) -> None:
     (tmp_path / "m.mind").write_text(MIND)
-    refused = train_apart(tmp_path, "m.mind", "Own")
-    assert refused.returncode == 1
-    assert "Own cannot begin with the weights of Go: Go has not been taught" in refused.stderr
-    assert "first: mindc train m.mind Go" in refused.stderr
+    with pytest.raises(MindError, match="Own cannot begin with the weights of Go: Go has not been taught") as refused:
+        train(tmp_path / "m.mind", "Own")
+    assert refused.value.hint.startswith("first: mindc train ")
+    assert refused.value.hint.endswith("m.mind Go")
 
 
 def test_unshared_it_does_the_same_to_the_bit(taught: Path) -> None:

@@ -1,18 +1,14 @@
 """Examples of the rules beside their own: other ways to write what those show, and corners."""
 
-from mindlang.lint.examples import COURSE, EYE, READS
-from mindlang.lint.rules import Rule, all_rules, deep_hierarchy, edge_at_zero, idle_influence, single_way
-from mindlang.lint.rules.chance_meeting import HALL
-from mindlang.lint.rules.direction_as_number import SENSORS, SKILL
-from mindlang.lint.rules.paid_at_once import TASK
-from mindlang.lint.rules.walled_off import HALL as WALLED_HALL
+from mindlang.explaining.collection import RULE, codes
+from tests.lint.minds import BACK, CHOICES, COURSE, EYE, HALL, IDLE, NECK, PAID, READS, SENSORS, SKILL, WALLED_HALL
 
 BEGIN = EYE + COURSE
 GOOD = {
-    "edge-at-zero": (f"{edge_at_zero.HIERARCHY}  influences Back at 0\n  chooses one\n",),
-    "idle-influence": (f"{idle_influence.BAD}  chooses one\n",),
-    "deep-hierarchy": (deep_hierarchy.BAD.replace("  influences", "  chooses one\n  influences", 1),),
-    "single-way": (f"{single_way.PARTS}  influences Look at 1\n",),
+    "edge-at-zero": (f"{BACK}  influences Back at 0\n  chooses one\n",),
+    "idle-influence": (f"{IDLE}  chooses one\n",),
+    "deep-hierarchy": (CHOICES.replace("  influences", "  chooses one\n  influences", 1),),
+    "single-way": (f"{NECK}  influences Look at 1\n",),
     "direction-as-number": (
         f"{SENSORS}{SKILL} north > 90% and north <= 1\n",
         f"{SENSORS}{SKILL} north > 1\n",
@@ -33,7 +29,7 @@ task Run in arena
     "zero-division": (f"{BEGIN}  rewards eye / 2 per tick\n",),
 }
 BAD = {
-    "single-way": (f"{single_way.PARTS}  influences Look at 1\n  chooses one\n",),
+    "single-way": (f"{NECK}  influences Look at 1\n  chooses one\n",),
     "chance-meeting": (
         HALL.format(2).replace("  lasts", "  starts at 8 2\n  lasts") + "body Robot is box size 4 1\n",
         HALL.format(2).replace("size 40", "size 40 8") + "body Robot is box size 10 1\n",
@@ -47,9 +43,9 @@ BAD = {
         f"{SENSORS}{SKILL} 2 * north - 1.8 > 0\n",
         f"{SENSORS}sensor turned is computed at north + 0.25\nsensor behind is latch of turned below 20% above 80%\n",
     ),
-    "edge-at-zero": (f"{edge_at_zero.HIERARCHY}  influences Back at 1/2 - 0.5\n",),
+    "edge-at-zero": (f"{BACK}  influences Back at 1/2 - 0.5\n",),
     "paid-at-once": tuple(
-        f"sensor moving is inertial\nsensor {sensor}\n" + TASK.replace("-10 0\n", f"-10 0\n  ends when {when}\n")
+        f"sensor moving is inertial\nsensor {sensor}\n" + PAID.replace("-10 0\n", f"-10 0\n  ends when {when}\n")
         for sensor, when in (
             ("pace is speed", "moving < 10%"),
             ("low is latch of charge below 70% above 80%", "low > 0.5"),
@@ -100,11 +96,14 @@ task Maze in arena size 20
 }
 
 
-def good_examples() -> list[tuple[Rule, str]]:
-    """Every rule with a mind that it has nothing to say of."""
-    return [(rule, text) for rule in all_rules().values() for text in (*rule.good, *GOOD.get(rule.code, ()))]
+RULES = {code: article for code, article in codes().items() if article.noun == RULE}
 
 
-def bad_examples() -> list[tuple[Rule, str]]:
-    """Every rule with a mind that it has something to say of."""
-    return [(rule, text) for rule in all_rules().values() for text in (*rule.bad, *BAD.get(rule.code, ()))]
+def good_examples() -> list[tuple[str, str]]:
+    """Every rule, by its code, with a mind that it has nothing to say of."""
+    return [(code, text) for code, rule in RULES.items() for text in (*rule.right, *GOOD.get(code, ()))]
+
+
+def bad_examples() -> list[tuple[str, str]]:
+    """Every rule, by its code, with a mind that it has something to say of."""
+    return [(code, text) for code, rule in RULES.items() for text in (*rule.wrong, *BAD.get(code, ()))]

@@ -10,13 +10,12 @@ from mindrun.sim.trace import trace
 
 from mindlang.compiler.compile import load
 from mindlang.lint.lint import lint
-from mindlang.lint.rules.crowded_world import BAD, BINS, GOOD
 from tests.lint.examples import whole
+from tests.lint.minds import BINS, CROWDED
 
 SEEDS = range(1, 21)
 WORLDS = [
-    GOOD,
-    *BAD,
+    *CROWDED,
     BINS.format(100, 60),
     BINS.format(45, 0).replace("  contains rock is obstacle count 0 size 3\n", ""),
     BINS.format(22, 0).replace("  contains rock is obstacle count 0 size 3\n", ""),
@@ -37,7 +36,7 @@ def test_it_says_what_the_lanes_do(text: str, tmp_path: Path) -> None:
 
 
 def test_the_cheaper_a_world_is_the_more_are_drawn(tmp_path: Path) -> None:
-    said = [lint(load(whole(text, tmp_path)), ["crowded-world"])[0].message for text in BAD]
+    said = [lint(load(whole(text, tmp_path)), ["crowded-world"])[0].message for text in CROWDED[1:]]
     few, many = (int(message.split(" worlds")[0].split()[-1]) for message in (said[1], said[0]))
     assert 1 < few < many
 

@@ -55,7 +55,7 @@ def flooded(sides: Place, walls: list[Rectangle]) -> dict[Place, int]:
     return {grid[at]: number for at, number in parts.items()}
 
 
-@settings(max_examples=cases(250))
+@settings(max_examples=cases(100))
 @given(st.lists(WALLS, max_size=4), st.sampled_from([(8.0, 6.0), (5.0, 7.0)]))
 def test_its_parts_are_those_of_a_flood(drawn: list[tuple[int, int, int, int, bool]], sides: Place) -> None:
     walls = [rectangle(*wall) for wall in drawn]

@@ -2,9 +2,9 @@
 
 import pytest
 
-from mindlang.lint.rules.coarse_tick import WHEELS
 from mindlang.lint.rules.zero_division import HINT, MESSAGE
 from tests.lint.examples import Tell
+from tests.lint.minds import WHEELS
 
 EYES = "sensor eye is range_finder at 0 deg\nsensor ear is range_finder at 90 deg\nsensor north is compass\n"
 TASK = "task Course in {}\n  lasts 9 s\n  rewards forward per tick\n  {}\n"

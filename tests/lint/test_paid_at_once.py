@@ -2,8 +2,8 @@
 
 import pytest
 
-from mindlang.lint.rules.paid_at_once import TASK as PAID
 from tests.lint.examples import Tell, Told
+from tests.lint.minds import PAID
 
 COIN = "contains coin is item size 2 at 13 0"
 

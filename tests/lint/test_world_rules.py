@@ -2,8 +2,9 @@
 
 import pytest
 
-from mindlang.lint.rules import chance_meeting, standing_learner, walled_off
+from mindlang.lint.rules import lessons, walled_off, worlds
 from tests.lint.examples import Tell, Told
+from tests.lint.minds import SCHOOL
 
 
 def task(*lines: str, scene: str = "arena size 40", name: str = "Hall") -> str:
@@ -40,9 +41,9 @@ ROBOT = "The robot starts in the border in some runs, as it happens to face."
         ),
         (
             task("contains crate is box size 2 to 6 at 3 0", COIN, "starts at 0 0"),
-            [("crate", "The robot starts in crate in some runs.", chance_meeting.START, "Hall")],
+            [("crate", "The robot starts in crate in some runs.", worlds.START, "Hall")],
         ),
-        (STEEL + task(COIN, "starts at 18.9 0"), [("Hall", ROBOT, chance_meeting.START)]),
+        (STEEL + task(COIN, "starts at 18.9 0"), [("Hall", ROBOT, worlds.START)]),
         (STEEL + task(COIN, "starts at 18.9 0 facing 90 deg"), []),
         (STEEL + task(COIN, "starts at 18 0"), []),
         (STEEL + task(COIN), []),
@@ -117,7 +118,7 @@ def test_ways_through_walls(told: Tell, way: str, is_told: bool) -> None:
     assert told("wall-on-the-way", task(COIN, fence, "contains cat is walker at 0 -5")) == []
 
 
-SCHOOL, LEAVE = standing_learner.SCHOOL, standing_learner.HINT
+LEAVE = lessons.HINT
 LESSON = "teaches Go on Course for 20 generations"
 
 
@@ -133,7 +134,7 @@ LESSON = "teaches Go on Course for 20 generations"
             [(
                 LESSON.replace("20", "1"),
                 "One generation is the first genomes alone, and nothing is bred from them.",
-                standing_learner.MORE_HINT,
+                lessons.MORE_HINT,
             )],
         ),
         (

@@ -11,11 +11,11 @@ from mindrun.graph.bundle import read_bundle
 from mindrun.graph.weights import genes
 
 from mindlang.compiler.compile import load
-from mindlang.lint.examples import WORLD
 from mindlang.lock import Taught, read_lock
 from mindlang.lock.blobs import FOLDER, record
 from mindlang.lock.signature import arrange
 from tests.calling import Call
+from tests.lint.minds import WORLD
 
 SOURCE = """tick 1/60 s
 master Top

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mindlang.lint.examples import WORLD
 from mindlang.lock import HEADER, Entry, LockError, Signature, Taught, read_lock, read_locks, write_lock
 from mindlang.lock.training_world import TrainingWorld
 from tests.draws import cases
+from tests.lint.minds import WORLD
 
 NAMES = st.text("abcxyzABC_+:0123456789", min_size=1, max_size=8)
 HASHES = st.text("0123456789abcdef", min_size=64, max_size=64)

@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mindlang.lint.examples import WORLD
 from mindlang.lock import Entry, Lock, LockError, lock_text, merge, read_lock, write_lock
 from mindlang.lock.training_world import TrainingWorld
 from tests.draws import cases
+from tests.lint.minds import WORLD
 from tests.lock.test_lock import ENTRIES
 
 SKILLS = ("Avoid", "Drive", "Go", "Seek")

@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 from mindrun.graph.graph import Graph
 from mindrun.kinds.registry import arguments, kinds
+from mindrun.kinds.scenes.scene import Arena, Plain
 from mindrun.kinds.sensors.compass import Compass
 from mindrun.kinds.sensors.nearest import Bearing
 from mindrun.kinds.sensors.rays import RangeFinder
@@ -18,11 +19,12 @@ from mindrun.kinds.sensors.rays import RangeFinder
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source
 from tests.edits.sources import a_mind
-from tests.hierarchies import VIRTUAL, physical_kinds, virtual_kinds
+from tests.hierarchies import VIRTUAL, physical_kinds, random_graph, virtual_kinds
 from tests.outside.drawn import environment_mind
-from tests.sim.worlds import learner_kinds, random_world, robot_kinds
+from tests.sim.worlds import _events, _measures, _things, learner_kinds, robot_kinds
 
-DRAWN, DRAWN_LISTS = 400, 40  # minds, and lists of kinds of which ten are enough
+DRAWN = 400  # minds, and lists of kinds
+FEW, MANY = 20, 60  # lists of one sort, and of several, that bring nothing new
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "event", "measure", "curriculum")
 OF_FILES = {"map"}  # which no text says by itself
 KNOWN = {"s0": Bearing("object"), "s1": RangeFinder(at=(-1.0, 0.0, 1.0)), "s2": Compass()}  # of what sensors are made
@@ -73,18 +75,30 @@ class EnoughError(Exception):
     """Nothing is missing any longer."""
 
 
-def strike_drawn(missing: Missing, strategy: st.SearchStrategy[Iterable[Any]], count: int = DRAWN) -> None:
-    """Draw lists of kinds until nothing is missing, so many at most."""
+def strike_drawn(missing: Missing, strategy: st.SearchStrategy[Iterable[Any]], idle: int) -> None:
+    """Draw lists of kinds until nothing is missing, or so many of them in a row strike out nothing."""
+    left = idle
 
-    @settings(max_examples=count, database=None, phases=[Phase.generate], suppress_health_check=list(HealthCheck))
+    @settings(max_examples=DRAWN, database=None, phases=[Phase.generate], suppress_health_check=list(HealthCheck))
     @given(strategy)
     def take(drawn: Iterable[Any]) -> None:
+        nonlocal left
+        before = len(missing.texts)
         missing.strike(drawn)
-        if not missing.texts:
+        left = idle if left and len(missing.texts) < before else max(left - 1, 0)  # the last is taken again
+        if not (missing.texts and left):
             raise EnoughError
 
     with suppress(EnoughError):
         take()
+
+
+@st.composite
+def task_kinds(draw: st.DrawFn) -> list[Any]:
+    """What stands in a task."""
+    scene = draw(st.sampled_from([Plain(), Arena(20.0), Arena((26.0, 15.0))]))
+    things = draw(_things(scene, ()))
+    return [scene, *(each.kind for each in things), *draw(_measures(things)), *draw(_events(scene, things))]
 
 
 def environments() -> Iterator[Graph]:
@@ -115,10 +129,10 @@ def test_every_kind_is_drawn_with_every_argument() -> None:
     missing = Missing()
     virtual = VIRTUAL.flatmap(lambda kind: virtual_kinds(kind, WIDTHS, KNOWN)).map(lambda drawn: drawn[1])
     strike_graphs(missing, environments())
-    strike_drawn(missing, st.lists(physical_kinds(), min_size=24))
-    for each in (virtual, learner_kinds(), robot_kinds()):
-        strike_drawn(missing, st.lists(each, min_size=24), DRAWN_LISTS)
-    strike_drawn(missing, random_world().map(parts), 3 * DRAWN)
+    for each, idle in ((physical_kinds(), MANY), (virtual, FEW), (learner_kinds(), FEW), (robot_kinds(), FEW)):
+        strike_drawn(missing, st.lists(each, min_size=24), idle)
+    strike_drawn(missing, task_kinds(), MANY)
+    strike_drawn(missing, random_graph().map(parts), DRAWN)
     assert [*missing.texts.values()] == []
 
 

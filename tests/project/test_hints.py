@@ -13,7 +13,7 @@ from mindrun.terminal.command_line import command_line
 
 from tests.calling import Call
 from tests.edits.taught import MIND, teach
-from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, tree
+from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, nodes
 
 # What stands behind `mindc` there is no file: a noun, an edit, a project's name, a seed, a command, an error.
 NO_FILES = {
@@ -37,9 +37,9 @@ def test_a_file_stays_a_file(file: str) -> None:
     assert not last.startswith("-")
 
 
-def put_together(module: ast.AST) -> Iterator[str]:
+def put_together(path: Path) -> Iterator[str]:
     """The texts before each value of an f-string in which the words of a command stand."""
-    for node in ast.walk(module):
+    for node in nodes(path):
         before = ""
         for part in node.values if isinstance(node, ast.JoinedStr) else ():
             if isinstance(part, ast.Constant):
@@ -49,7 +49,7 @@ def put_together(module: ast.AST) -> Iterator[str]:
 
 
 def test_no_command_is_put_together_by_hand() -> None:
-    found = {path for path in modules(COMPILER, RUNTIME) if any(put_together(tree(path)))}
+    found = {path for path in modules(COMPILER, RUNTIME) if any(put_together(path))}
     assert {path.relative_to(ROOT).as_posix() for path in found} == NO_FILES
 
 

@@ -9,22 +9,15 @@ from shutil import copy
 import pytest
 
 from tests.project.sources import ROOT
+from tests.project.test_packages import WITHOUT_OURS, run
 
 PACKAGES = Path(sysconfig.get_path("purelib"))
 PIP = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
 
 
-def run(*words: object, cwd: Path) -> str:
-    """What a program that must succeed prints."""
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, cwd=cwd)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
-
-
 def wheel(source: Path, folder: Path) -> Path:
     """The wheel of a project."""
-    options = ["--no-deps", "--no-index", "--no-build-isolation", "--wheel-dir", folder]
-    run(*PIP, "wheel", *options, source, cwd=folder)
+    run(sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", folder, cwd=source)
     return next(folder.glob("*.whl"))
 
 
@@ -37,7 +30,7 @@ def environment(folder: Path) -> tuple[Path, Path]:
 
 def install(python: Path, wheel: Path, *options: str) -> None:
     """Install a wheel with nothing to download, so that what it needs must already be there."""
-    run(*PIP, "--python", python, "install", "--no-index", *options, wheel, cwd=wheel.parent)
+    run(*PIP, "--python", python, "install", "--no-index", "--no-compile", *options, wheel, cwd=wheel.parent)
 
 
 @pytest.fixture(scope="module")
@@ -70,9 +63,7 @@ def bundle(workstation: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "b.bundle"
 
 
-def test_the_compiler_brings_its_grammar(workstation: Path, tmp_path: Path) -> None:
-    copy(ROOT / "examples" / "collect" / "collect.mind", tmp_path)
-    run(workstation.with_name("mindc"), "check", "collect.mind", cwd=tmp_path)
+def test_the_compiler_is_where_it_was_installed(workstation: Path, tmp_path: Path) -> None:
     where = run(workstation, "-c", "import mindlang, mindrun; print(mindlang.__file__, mindrun.__file__)", cwd=tmp_path)
     assert all(Path(file).is_relative_to(workstation.parents[1]) for file in where.split())
     assert run(workstation.with_name("mindc"), "--version", cwd=tmp_path).startswith("mindc, version ")
@@ -80,7 +71,9 @@ def test_the_compiler_brings_its_grammar(workstation: Path, tmp_path: Path) -> N
 
 def test_the_compiler_reports_mistakes_where_it_is_installed(workstation: Path, tmp_path: Path) -> None:
     (tmp_path / "wrong.mind").write_text("skill Avoid is mpl hidden 2\n")
-    done = subprocess.run([workstation.with_name("mindc"), "check", "wrong.mind"], capture_output=True, cwd=tmp_path)
+    done = subprocess.run(
+        [workstation.with_name("mindc"), "check", "wrong.mind"], capture_output=True, cwd=tmp_path, env=WITHOUT_OURS
+    )
     assert done.returncode == 1
     assert b"wrong.mind:1" in done.stderr
     assert b"mlp" in done.stderr
@@ -93,8 +86,7 @@ def test_the_robot_has_no_compiler(robot: Path, tmp_path: Path) -> None:
 
 
 def test_the_robot_runs_a_bundle(robot: Path, bundle: Path, tmp_path: Path) -> None:
-    assert run(robot, "-m", "mindrun", bundle, cwd=tmp_path) == run(robot.with_name("mindrun"), bundle, cwd=tmp_path)
     readings = tmp_path / "readings.jsonl"
     readings.write_text("{}\n")
-    line = run(robot, "-m", "mindrun", bundle, "--readings", readings, "--fill", "0.5", cwd=tmp_path)
+    line = run(robot.with_name("mindrun"), bundle, "--readings", readings, "--fill", "0.5", cwd=tmp_path)
     assert line.startswith('{"commands": {')

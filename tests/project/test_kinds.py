@@ -14,7 +14,7 @@ from mindrun.numbers.quantity import THING
 from mindrun.sim.codes import ACTUATOR_CODES, EVENT_CODES, MEASURE_CODES, THING_CODES
 
 from mindlang.pictures.theme import NIGHT, PAPER
-from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, tree
+from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, nodes
 
 ROOMS = ("sensors", "functions", "actuators", "things", "scenes", "events", "measures", "bodies", "memory", "learners")
 for room in ROOMS:
@@ -115,14 +115,14 @@ def test_every_thing_has_its_colours(noun: str, name: str) -> None:
 @every("actuator", "content", "measure", "event", "task")
 def test_every_kind_is_drawn_by_the_tests(noun: str, name: str) -> None:
     cls = kinds(noun)[name]
-    drawn = {node.id for path in GENERATORS for node in ast.walk(tree(path)) if isinstance(node, ast.Name)}
+    drawn = {node.id for path in GENERATORS for node in nodes(path) if isinstance(node, ast.Name)}
     assert cls.__name__ in drawn, f"no test of the lanes ever draws a {name}: tests/sim/worlds.py does not know it"
 
 
 def asked(path: Path) -> list[str]:
     """The classes of kinds that a module matches on, has in a table, or asks for with isinstance or `type(…) is`."""
     known = dict(_imported(path))
-    forms = (part for node in ast.walk(tree(path)) for form in _forms(node) for part in ast.walk(form))
+    forms = (part for node in nodes(path) for form in _forms(node) for part in ast.walk(form))
     classes = (_value(form, known) for form in forms)
     return sorted({found.__name__ for found in classes if isinstance(found, type) and found in KINDS})
 
@@ -151,7 +151,7 @@ def _value(form: ast.AST, known: Mapping[str, object]) -> object:
 
 def _imported(path: Path) -> Iterator[tuple[str, object]]:
     """What the names are that a module imports from the runtime."""
-    for node in ast.walk(tree(path)):
+    for node in nodes(path):
         if isinstance(node, ast.ImportFrom) and str(node.module).partition(".")[0] == "mindrun":
             for alias in node.names:
                 yield alias.asname or alias.name, getattr(import_module(str(node.module)), alias.name, None)

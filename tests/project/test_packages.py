@@ -67,6 +67,7 @@ def wheels(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     return {name: built(source, "wheel", tmp_path_factory.mktemp(name)) for name, source in PROJECTS.items()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("project", PROJECTS)
 def test_a_source_archive_builds_the_same_wheel(
     project: str, archives: dict[str, Path], wheels: dict[str, Path], tmp_path: Path
@@ -78,6 +79,7 @@ def test_a_source_archive_builds_the_same_wheel(
     assert members(built(source, "wheel", tmp_path / "wheel")) == members(wheels[project])
 
 
+@pytest.mark.slow
 def test_the_source_archive_has_what_working_on_it_needs(archives: dict[str, Path]) -> None:
     with tarfile.open(archives["mindlang"]) as archive:
         names = {name.partition("/")[2] for name in archive.getnames()}

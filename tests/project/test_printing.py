@@ -1,12 +1,12 @@
 """Who may print, end the program, read its arguments or ask the time: the command lines, and who is named here."""
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
 
-from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, tree
+from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, nodes, origins
 
 SPEAKING = {
     *("print", "input", "exit", "quit", "SystemExit", "rich.console.Console", "click.echo", "click.secho"),
@@ -45,16 +45,16 @@ TIMED = {
 }
 
 
-def said(node: ast.Module, words: set[str]) -> Iterator[tuple[int, str]]:
-    """The places where a file uses one of these names, whatever it calls them."""
+def said(file: Sequence[ast.AST], words: set[str]) -> Iterator[tuple[int, str]]:
+    """The places where the nodes of a file use one of these names, whatever it calls them."""
     known = {}
-    for each in ast.walk(node):
+    for each in file:
         match each:
             case ast.Import(names=names):
                 known |= {alias.asname or alias.name: alias.name for alias in names}
             case ast.ImportFrom(module=str(module), names=names):
                 known |= {alias.asname or alias.name: f"{module}.{alias.name}" for alias in names}
-    for each in ast.walk(node):
+    for each in file:
         if isinstance(each, ast.Name | ast.Attribute):
             first, dot, rest = ast.unparse(each).partition(".")
             full = (known.get(first, first) + dot + rest).removeprefix("builtins.")
@@ -65,7 +65,7 @@ def said(node: ast.Module, words: set[str]) -> Iterator[tuple[int, str]]:
 def outside(root: Path, allowed: set[str], words: set[str]) -> list[str]:
     """Where the files of a package use such a name, but for those that may."""
     files = [path for path in modules(root) if path.relative_to(root).as_posix() not in allowed]
-    return [f"{path.relative_to(ROOT)}:{line} {name}" for path in files for line, name in said(tree(path), words)]
+    return [f"{path.relative_to(ROOT)}:{line} {name}" for path in files for line, name in said(nodes(path), words)]
 
 
 def commands() -> set[str]:
@@ -83,7 +83,7 @@ def test_only_the_command_line_and_the_notebook_ask_the_time() -> None:
 
 def test_nobody_imports_the_command_line() -> None:
     inner = [path for path in modules(COMPILER) if not path.is_relative_to(COMPILER / "cli")]
-    found = {path: [*_imports(tree(path))] for path in inner}
+    found = {path: origins(path) for path in inner}
     assert [path for path, names in found.items() if any(name.startswith("mindlang.cli") for name in names)] == []
 
 
@@ -92,9 +92,9 @@ def test_only_the_commands_of_the_runtime_print_and_exit() -> None:
 
 
 def test_every_exception_is_one() -> None:
-    spoken = {path.relative_to(RUNTIME).as_posix() for path in modules(RUNTIME) if any(said(tree(path), SPEAKING))}
+    spoken = {path.relative_to(RUNTIME).as_posix() for path in modules(RUNTIME) if any(said(nodes(path), SPEAKING))}
     assert spoken == set(COMMANDS)
-    assert [name for name in TIMED if not any(said(tree(COMPILER / name), CLOCKS))] == []
+    assert [name for name in TIMED if not any(said(nodes(COMPILER / name), CLOCKS))] == []
 
 
 @pytest.mark.parametrize(
@@ -106,13 +106,4 @@ def test_every_exception_is_one() -> None:
     ],
 )
 def test_the_test_would_notice(line: str) -> None:
-    assert any(said(ast.parse(line), SPEAKING))
-
-
-def _imports(node: ast.Module) -> Iterator[str]:
-    for each in ast.walk(node):
-        match each:
-            case ast.Import(names=names):
-                yield from (alias.name for alias in names)
-            case ast.ImportFrom(module=str(module), names=names):
-                yield from (f"{module}.{alias.name}" for alias in names)
+    assert any(said([*ast.walk(ast.parse(line))], SPEAKING))

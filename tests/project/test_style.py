@@ -8,13 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, tree
+from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, nodes, tree
 
 BENCHMARKS, EXAMPLES = ROOT / "benchmarks", ROOT / "examples"
 FILE_LINES, FUNCTION_LINES, TEST_FILE_LINES = 400, 40, 450
 LONG_FILES = {
     "mindlang/compiler/syntax.py": "one dataclass for each thing that a line can say",
-    "mindlang/compiler/parse/mistakes.py": "one table, a row for each mistake; the first row that fits explains a line",
     "tests/sim/plain_world.py": "a whole world the obvious way, to be read at one go",
     "tests/lock/test_worlds.py": "one mind with every kind, and what is noticed of each",
 }
@@ -73,7 +72,7 @@ def test_asserts_only_narrow_types() -> None:
     assert [
         f"{name(path)}:{node.lineno} {ast.unparse(node.test)}"
         for path in modules(COMPILER, RUNTIME)
-        for node in ast.walk(tree(path))
+        for node in nodes(path)
         if isinstance(node, ast.Assert) and not narrows(node.test)
     ] == []
 
@@ -95,7 +94,7 @@ def lines(path: Path) -> int:
 
 def definitions(path: Path) -> Iterator[ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef]:
     """Every function and class of a file, wherever it stands."""
-    for node in ast.walk(tree(path)):
+    for node in nodes(path):
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
             yield node
 

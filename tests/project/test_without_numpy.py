@@ -1,9 +1,11 @@
 """What reads text needs none of what computes: it says the same in a Python in which importing numpy fails."""
 
 import ast
+import json
 import subprocess
 import sys
 from collections.abc import Sequence
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -23,18 +25,30 @@ sys.meta_path.insert(0, Refuse())
 """
 COMPUTING = {"numpy", "numba", "llvmlite", "pymunk", "cv2", "PIL", "matplotlib", "websockets"}
 COMMAND = "from mindlang.cli import main; main()"
-EDITOR = """
+SESSION = """
+import contextlib, io, json
 from pathlib import Path
-from mindlang.server.server import EditorSession
+from mindlang.cli import main
 
-path = Path(sys.argv[1]).resolve()
-session = EditorSession()
-session.set(path.as_uri(), 1, path.read_text().replace("reads proximity", "reads proximty"))
-for news in session.news():
-    print(news.uri, *((each.code, each.message, each.range) for each in news.diagnostics), sep="\\n")
+def said(words):
+    with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(io.StringIO()) as err:
+        sys.argv[1:] = words
+        try:
+            main()
+        except SystemExit as end:
+            return end.code, out.getvalue(), err.getvalue()
+    return 0, out.getvalue(), err.getvalue()
+
+def told(path):
+    from mindlang.server.server import EditorSession
+
+    session = EditorSession()
+    session.set(path.as_uri(), 1, path.read_text().replace("reads proximity", "reads proximty"))
+    return [(news.uri, [(each.code, each.message, each.range) for each in news.diagnostics]) for news in session.news()]
+
+mind, has_editor, *commands = json.loads(sys.argv[1])
+print(json.dumps([*map(said, commands), *([told(Path(mind).resolve())] if has_editor else [])], default=str))
 """
-
-
 COLLECT = "examples/collect/collect.mind"
 MAX_CHECK_MODULES = 115
 
@@ -46,12 +60,15 @@ def run(program: str, words: Sequence[str], refused: set[str]) -> tuple[int, str
     return done.returncode, done.stdout, done.stderr
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
+def test_commands_and_an_editor_say_the_same(tmp_path: Path) -> None:
+    constant = tmp_path / "constant.mind"
+    text = (ROOT / "examples/braitenberg.mind").read_text()
+    constant.write_text(f"{text}\nsensor always is computed at greatest of 0.1 (1 / 0)\n")
+    commands = (
         ("check", COLLECT),
         ("check", "examples/lander/lander.mind", "examples/collect/collect.break"),
         ("lint", COLLECT, "examples/collect/monolith.mind"),
+        ("lint", str(constant)),
         ("fmt", "--diff", "examples/maze/maze.mind"),
         ("explain",),
         ("explain", "unread-sensor"),
@@ -60,34 +77,22 @@ def run(program: str, words: Sequence[str], refused: set[str]) -> tuple[int, str
         ("show", "examples/braitenberg.mind"),
         ("show", COLLECT, "--dot"),
         ("schema",),
-    ],
-    ids=" ".join,
-)
-def test_a_command_says_the_same(words: tuple[str, ...]) -> None:
-    found = run(COMMAND, words, COMPUTING)
-    assert "there is no" not in found[2]
-    assert found == run(COMMAND, words, set())
-
-
-def test_lint_knows_what_is_constant(tmp_path: Path) -> None:
-    text = (ROOT / "examples/braitenberg.mind").read_text()
-    mind = tmp_path / "constant.mind"
-    mind.write_text(f"{text}\nsensor always is computed at greatest of 0.1 (1 / 0)\n")
-    found = run(COMMAND, ("lint", str(mind)), COMPUTING)
-    assert found == run(COMMAND, ("lint", str(mind)), set())
+    )
+    asked = json.dumps([COLLECT, find_spec("pygls") is not None, *commands])
+    without, whole = (json.loads(run(SESSION, [asked], refused)[1]) for refused in (COMPUTING, set()))
+    for words, found, expected in zip(commands, without, whole, strict=False):
+        assert found == expected, words
+        assert "there is no" not in found[2]
+        assert found[1] or found[2], words
+    for news in without[len(commands) :]:
+        assert "unknown-sensor" in str(news)
+    assert without == whole
 
 
 def test_check_imports_what_it_uses() -> None:
     """Of the 770 modules of ours; each costs some 0.5 ms, a frozen dataclass in it as much again."""
     counted = "import atexit; atexit.register(lambda: print(sum(each.startswith('mind') for each in sys.modules)))\n"
     assert int(run(counted + COMMAND, ["check", COLLECT], set())[1]) <= MAX_CHECK_MODULES
-
-
-def test_an_editor_is_told_the_same() -> None:
-    pytest.importorskip("pygls")
-    found = run(EDITOR, (COLLECT,), COMPUTING)
-    assert "unknown-sensor" in found[1]
-    assert found == run(EDITOR, (COLLECT,), set())
 
 
 @pytest.mark.parametrize(

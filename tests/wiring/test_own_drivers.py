@@ -5,8 +5,11 @@ import subprocess
 import sys
 from dataclasses import replace
 from hashlib import sha256
+from math import inf
 from pathlib import Path
+from shutil import copy
 from textwrap import dedent
+from types import SimpleNamespace
 
 import pytest
 from mindrun.cli.doctor import wired
@@ -18,9 +21,11 @@ from mindrun.robot.drivers.own import OwnActuator, OwnSensor
 from mindrun.robot.guardian.plan import plan_of, to_json
 from mindrun.robot.sensing import Sampler
 
+from mindlang.cli import commands
 from mindlang.robot import driver
 from mindlang.robot.deployment import make_release
-from tests.calling import Call
+from mindlang.robot.driver_inspection import UnfitDriverError, timing_of
+from tests.calling import Call, write_rules
 from tests.project.sources import ROOT
 
 ROBOT = """robot: desk
@@ -85,20 +90,31 @@ class Wheel:
 '''
 
 
+@pytest.fixture(scope="module")
+def desk(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of the small mind, wired to drivers of a file beside its robot.yaml, and built."""
+    folder = tmp_path_factory.mktemp("desk")
+    rules = write_rules(folder)
+    (folder / "own.py").write_text(FILE.format(log=folder / "log.txt"))
+    (folder / "robot.yaml").write_text(ROBOT.format(sensor="own.Feelers\n    gain: 0.25", actuator="own.Wheel"))
+    words = ["build", rules, "--robot", folder / "robot.yaml", "-o", folder / "a.bundle"]
+    commands.main([str(word) for word in words], standalone_mode=False)
+    return folder
+
+
 @pytest.fixture
-def log(tmp_path: Path) -> Path:
+def log(desk: Path) -> Path:
     """What `own.py` writes when it is run."""
-    return tmp_path / "log.txt"
+    (desk / "log.txt").unlink(missing_ok=True)
+    return desk / "log.txt"
 
 
 @pytest.fixture
-def built(mindc: Call, rules: Path, tmp_path: Path, log: Path) -> Path:
-    """The bundle of the small mind, wired to drivers of a file beside its robot.yaml."""
-    (tmp_path / "own.py").write_text(FILE.format(log=log))
-    said = build(mindc, rules, ROBOT.format(sensor="own.Feelers\n    gain: 0.25", actuator="own.Wheel"))
-    assert said.code == 0, said.err
-    log.unlink()
-    return tmp_path / "a.bundle"
+def built(desk: Path, rules: Path, log: Path) -> Path:
+    """The bundle of the folder, in one of its own."""
+    for name in ("own.py", "robot.yaml", "a.bundle"):
+        copy(desk / name, rules.parent)
+    return rules.with_name("a.bundle")
 
 
 def build(mindc: Call, rules: Path, robot: str):
@@ -138,7 +154,11 @@ def test_it_does_what_it_is_told_where_it_is_opened(built: Path, capsys: pytest.
     assert capsys.readouterr().out == "told 0.75\n"
 
 
-def test_nothing_that_reads_runs_it(built: Path, log: Path, rules: Path, mindc: Call, tmp_path: Path) -> None:
+def test_nothing_that_reads_runs_it(built: Path, rules: Path, mindc: Call, tmp_path: Path) -> None:
+    log = tmp_path / "log.txt"
+    built.with_name("own.py").write_text(FILE.format(log=log))  # which this process has not imported
+    assert build(mindc, rules, rules.with_name("robot.yaml").read_text()).code == 0
+    log.unlink()
     for words in (["check"], ["lint"], ["show"], ["status"], ["fmt", "--check"]):
         mindc(words[0], rules, *words[1:])
     bundle = read_bundle(built)
@@ -242,12 +262,6 @@ def test_a_file_that_is_wrong_is_told_on_its_line(mindc: Call, rules: Path, text
         ("bus_seconds, bus = 0.06, 3", "warning", "In each second feeler needs 1.2 s of I2C bus 3"),
         ("seconds, most, bus_seconds, queue = 0.05, inf, 0, 'a chip'", "", ""),
         ("seconds = nan", "error", "own.Feelers has seconds that are no number from 0: nan"),
-        ("seconds = inf", "error", "own.Feelers has seconds that are no number from 0: inf"),
-        ("most = 'much'", "error", "own.Feelers has most that is no number from 0: 'much'"),
-        ("bus_seconds = -1", "error", "own.Feelers has bus_seconds that are no number from 0: -1"),
-        ("seconds = True", "error", "own.Feelers has seconds that are no number from 0: True"),
-        ("bus_seconds = 0.01", "error", "own.Feelers has bus_seconds, and no bus that is a whole number from 0 to 99"),
-        ("queue = 3", "error", "own.Feelers has a queue that is no text"),
         ("seconds = property(lambda self: self.nothing)", "error", "has no attribute 'nothing'"),
     ],
 )
@@ -259,6 +273,23 @@ def test_it_is_asked_for_its_timing(
     err = " ".join(build(mindc, rules, ROBOT.format(sensor="own.Feelers", actuator="mock")).err.split())
     assert [word for word in ("error", "warning") for _ in range(err.count(f"{word}:"))] == [kind] * bool(kind)
     assert told in err
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ({"seconds": inf}, "has seconds that are no number from 0: inf"),
+        ({"most": "much"}, "has most that is no number from 0: 'much'"),
+        ({"bus_seconds": -1}, "has bus_seconds that are no number from 0: -1"),
+        ({"seconds": True}, "has seconds that are no number from 0: True"),
+        ({"bus_seconds": 0.01}, "has bus_seconds, and no bus that is a whole number from 0 to 99"),
+        ({"queue": 3}, "has a queue that is no text"),
+    ],
+)
+def test_a_timing_that_cannot_be_is_refused(said: dict[str, object], told: str) -> None:
+    with pytest.raises(UnfitDriverError) as refused:
+        timing_of(SimpleNamespace(**said), "sensor")
+    assert str(refused.value) == told
 
 
 def test_a_folder_of_that_name_is_told_on_its_line(mindc: Call, rules: Path) -> None:

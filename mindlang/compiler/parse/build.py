@@ -32,9 +32,10 @@ _SENT = {"name": Name, "at": Expression, "gate": syntax.Gate, "stands_for": Name
 _NEED = {"measure": Name, "compare": str, "above": Amount, "event": Phrase}
 _OUTCOME = {"times": Amount, "event": Phrase, "when": syntax.When}
 # Rules any of whose parts may be missing: which field a part is, its type says, and of two of one type their order.
-_FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, type]]] = {
+_FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, Any]]] = {
     "drives": (syntax.Drives, _SENT),
     "influences": (syntax.Influences, {**_SENT, "over": tuple, "cuts": Amount}),
+    "draws": (syntax.Draws, {"name": Name, "of": Numbers | syntax.Range | syntax.Points}),
     "starts": (syntax.Starts, {"place": tuple, "facing": Amount}),
     "ends": (syntax.Ends, _OUTCOME),
     "succeeds": (syntax.Succeeds, _OUTCOME),
@@ -66,7 +67,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         """A rule of the tables."""
         if data in _FIELDS:
             form, fields = _FIELDS[data]
-            parts: dict[type, Iterator[Any]] = {of: iter(syntax.of_form(children, of)) for of in fields.values()}
+            parts: dict[Any, Iterator[Any]] = {of: iter(syntax.of_form(children, of)) for of in fields.values()}
             found = {field: next(parts[of], None) for field, of in fields.items()}
             return form(**found, span=self._span(meta))
         form = _FORMS[data]
@@ -154,10 +155,6 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     def its(self, meta: Any, parts: list[Any]) -> Phrase:
         """A phrase of the environment's own (its reward): both words are the name of its kind."""
         return Phrase(Name(f"{parts[0]} {parts[1].text}", self._span(meta)), (), self._span(meta))
-
-    def draws(self, meta: Any, parts: list[Any]) -> syntax.Draws:
-        name, _, of = parts
-        return syntax.Draws(name, of, self._span(meta))
 
     def place(self, meta: Any, parts: list[Any]) -> tuple[Amount, ...]:
         return tuple(parts)

@@ -9,7 +9,7 @@ from unicodedata import normalize
 from mindrun.kinds.registry import arguments, kinds, named_arguments
 
 from mindlang.compiler.diagnostic import Diagnostic, a, did_you_mean, listed
-from mindlang.compiler.parse.mistakes import MISTAKES, OPENINGS, STOP_MISTAKES, Mistake
+from mindlang.compiler.parse.mistakes import Mistake, common_mistakes
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import NOUNS, PARTS, SETTINGS, VERBS
 
@@ -26,76 +26,9 @@ _WORDS = {
     "RPAR": ")", "EXTREME": "least of or greatest of", "COMPARE": "< <= > or >=", "TEXT": 'a path in "quotes"',
 }  # fmt: skip
 
-# A line as it should be, for each word with which one begins.
-LINES = {
-    "sensor": "sensor eyes is range_finder at 0 90 deg",
-    "actuator": "actuator left_wheel is wheel side left neutral 0.5",
-    "memory": "memory mood is cell decay 0.95",
-    "body": "body Robot is disc size 2",
-    "skill": "skill Avoid is mlp hidden 2",
-    "curriculum": "curriculum Lessons is genetic population 100",
-    "task": "task Avoid in arena size 100",
-    "reads": "reads eyes",
-    "drives": "drives left_wheel",
-    "influences": "influences Avoid, or influences Avoid at 0.5 when ahead < 20%",
-    "stays": "stays frozen",
-    "uses": 'uses "policy.pt"',
-    "requires": "requires battery > 5%",
-    "maintains": "maintains near < 90%",
-    "achieves": "achieves in_dock > 50%",
-    "scene": "scene Rocks is arena size 100",
-    "contains": "contains rock is obstacle count 10",
-    "starts": "starts at 0 0 facing 90 deg",
-    "draws": "draws side from 0 1, or draws speed from 2 to 6",
-    "varies": "varies thrust of left_wheel 60 to 90",
-    "fails": "fails left_wheel 1% per s",
-    "lasts": "lasts 10000 ticks",
-    "ends": "ends on collision, or ends when battery < 5%",
-    "succeeds": "succeeds on 5 delivery of ball",
-    "opens": "opens gate on 2 delivery of key, or opens gate when battery < 5%",
-    "rewards": "rewards 10 on reach of ball, or rewards forward per tick",
-    "counts": "counts collision",
-    "teaches": "teaches Avoid on Avoid for 1000 generations",
-    "use": 'use "parts.mind"',
-    "master": "master Avoid",
-    "tick": "tick 1/60 s",
-    "mind": "mind 1",
-    "unit": "unit 8.5 cm",
-    "number": "number sight is 12",
-}
-
 STOPS = "stop when holding > 0.5, stop on collision or stop in tick 812"  # lines of a .break file
 
 JOINTS = ("for", "to", "by", "below", "facing", "per", "when")  # after which a value comes that is no argument's
-
-# What people write for a word of the language.
-FOREIGN_WORDS = {
-    "skill": "behaviour behavior node network policy agent module function def class fn brain controller neuron layer",
-    "actuator": "motor wheel output_device effector servo gripper joint",
-    "sensor": "camera lidar range_finder input_device detector",
-    "memory": "state variable var let",
-    "body": "robot chassis vehicle",
-    "task": "environment env world level arena game episode",
-    "curriculum": "lesson lessons school training learner trainer teacher optimizer optimiser",
-    "reads": "senses sees input inputs perceives observes gets takes subscribes",
-    "drives": "controls output outputs moves sets actuates commands writes publishes",
-    "influences": "activates calls runs triggers invokes excites inhibits subskill subskills child children",
-    "stays frozen": "frozen freeze freezes fixed",
-    "requires": "precondition expects assumes",
-    "maintains": "invariant ensures guarantees keeps",
-    "achieves": "postcondition promises leaves",
-    "contains": "has includes holds object thing spawn",
-    "lasts": "duration time length timeout max_steps steps limit",
-    "ends on": "stops stop terminates terminate finishes done",
-    "rewards": "reward scores score points gives fitness",
-    "rewards with a negative number": "penalises penalizes penalty punishes costs cost loss",
-    "counts": "measures metric metrics logs records",
-    "number": "const constant define",
-    "teaches": "trains train learns learn optimises optimizes",
-    "tick": "dt timestep time_step step framerate fps rate frequency hz",
-    "master": "root main top start entry",
-    'use "file.mind"': "import include from require load using",
-}
 
 
 def proper(noun: str, name: str) -> str:
@@ -113,13 +46,17 @@ def _title(name: str) -> str:
 
 def explain(error: "UnexpectedInput", code: str, line: Span, start: "Start" = "line") -> Diagnostic:
     """Why the grammar refuses the line `code`, of a mind or of a .break file, in the user's words."""
+    known = common_mistakes()
     if start == "stop":
-        return _no_stop(code, line) or common_mistake(STOP_MISTAKES, code, line) or unexpected(error, code, line, STOPS)
-    return (
-        _opening(code, line)
-        or common_mistake(MISTAKES, code, line)
-        or unexpected(error, code, line, LINES.get(code.split()[0], LINES["skill"]))
-    )
+        return _no_stop(code, line) or common_mistake(known.stops, code, line) or unexpected(error, code, line, STOPS)
+    found = _opening(code, line) or common_mistake(known.lines, code, line)
+    return found or unexpected(error, code, line, _right(code.split()[0]))
+
+
+def _right(word: str) -> str:
+    """A line that begins with a word, as it should be; one of a skill where no line does."""
+    lines = common_mistakes().right
+    return lines.get(word, lines["skill"])
 
 
 def _at(line: Span, start: int, end: int) -> Span:
@@ -138,14 +75,13 @@ def _opening(code: str, line: Span) -> Diagnostic | None:
     message = f"A line cannot begin with {word[:40]}."
     if word.lower() in known:
         return Diagnostic("no-verb", message, here, f"Write {word.lower()}.")
-    if word in _known_words():
-        known_word = _known_words()[word]
-        example = f", as in {LINES[known_word]}" if known_word in LINES else ""
+    if known_word := _known_words().get(word):
+        example = f", as in {_right(known_word)}" if known_word in common_mistakes().right else ""
         return Diagnostic("no-verb", message, here, f"Write {known_word}{example}.")
     if word in _keys() and re.match(r"\s*\w+(\s+[-+\d.]|\s*$)", code):
         hint = "Write it on the line of its declaration, after the kind, as in skill Avoid is mlp hidden 2."
         return Diagnostic("argument-below", f"{word} is an argument, and no fact of its own.", here, hint)
-    if told := common_mistake(OPENINGS, code, line):
+    if told := common_mistake(common_mistakes().openings, code, line):
         return told
     hint = did_you_mean(word, known) or f"A fact begins with its verb: {listed(VERBS)}."
     if not word[0].isalpha():
@@ -158,7 +94,7 @@ def _no_stop(code: str, line: Span) -> Diagnostic | None:
     first = re.match(r"\s*(\S+)", code)
     if not first or re.match(r"stop\b", first[1]):
         return None
-    if not first[1][0].isalpha() and (told := common_mistake(OPENINGS, code, line)):
+    if not first[1][0].isalpha() and (told := common_mistake(common_mistakes().openings, code, line)):
         return told
     message = "A line of a .break file begins with stop."
     return Diagnostic("no-stop", message, _at(line, *first.span(1)), f"Write for example {STOPS}.")
@@ -166,8 +102,8 @@ def _no_stop(code: str, line: Span) -> Diagnostic | None:
 
 @cache
 def _known_words() -> dict[str, str]:
-    """The word of the language for each word of `FOREIGN_WORDS`."""
-    return {word: known for known, words in FOREIGN_WORDS.items() for word in words.split()}
+    """The word of the language for each that people write for one."""
+    return {word: known for known, words in common_mistakes().foreign_words.items() for word in words.split()}
 
 
 @cache
@@ -211,8 +147,8 @@ def _computed_fields(groups: Mapping[str, str], code: str) -> dict[str, str]:
         "joined": re.sub(r"\W+", "_", here) if here[:1].islower() else _title(re.sub(r"\W+", "_", here)),
         "kinds": listed(sorted(registered)) if registered else "",
         "takes": _taken(kind),
-        "line": LINES.get(re.split(r"\W", first)[0], LINES["skill"]),
-        "noun_line": LINES.get(noun, LINES["skill"]),
+        "line": _right(re.split(r"\W", first)[0]),
+        "noun_line": _right(noun),
     }
 
 

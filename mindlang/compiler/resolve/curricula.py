@@ -113,7 +113,8 @@ class _LessonContext:
         """
         left = list(lessons)
         taught = {lesson.fact: self._taught(lesson) for lesson in left}
-        needs = {lesson.fact: self._needed(lesson) - taught[lesson.fact] for lesson in left}
+        acting = {lesson.fact: self._owners({*self._below(lesson.master), lesson.starts_from}) for lesson in left}
+        needs = {fact: of - taught[fact] for fact, of in acting.items()}
         while left:
             free = (
                 lesson
@@ -130,9 +131,6 @@ class _LessonContext:
         names = self._below(lesson.skill) if lesson.with_subskills else {lesson.skill}
         owners = (self.skills[name] for name in self._owners(names))
         return {skill.name for skill in owners if not skill.frozen and skill.function and skill.function.learns}
-
-    def _needed(self, lesson: model.Lesson) -> set[str]:
-        return self._owners({*self._below(lesson.master), lesson.starts_from})
 
     def _below(self, name: str) -> set[str]:
         """A skill and all that it influences; nothing where it could not be read."""

@@ -10,8 +10,7 @@ from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.names import Names
 from mindlang.compiler.references import DRIVABLE_NOUNS, READABLE_NOUNS
-from mindlang.compiler.resolve.parts import ONE_OF_TWO, said_once
-from mindlang.compiler.resolve.promises import resolve_promises
+from mindlang.compiler.resolve.parts import ONE_OF_TWO, promises, said_once
 from mindlang.compiler.syntax import (
     Declaration,
     Drives,
@@ -67,8 +66,8 @@ def alike(
         if twice := next((fact for fact in lines if names_.count(fact.name.text) > 1), None):
             message = f"{name} would {verb_of(twice).removesuffix('s')} {twice.name.text} twice."
             findings.error("repeated-input", twice.span, message, "Write something else in this line.")
-    promises = resolve_promises(own, names, widths, findings)
-    return model.Skill(name, other.function, reads, edges, False, own, other.owner, other.chooses, promises)
+    promised = promises(own, names, widths, findings)
+    return model.Skill(name, other.function, reads, edges, False, own, other.owner, other.chooses, promised)
 
 
 def _says_more(fact: Reads | Sends | Promise) -> bool:
@@ -76,10 +75,6 @@ def _says_more(fact: Reads | Sends | Promise) -> bool:
     return isinstance(fact, Sends) and bool(
         fact.at or fact.gate or (isinstance(fact, Influences) and (fact.cuts or fact.over))
     )
-
-
-def _targets(skill: model.Skill, *nouns: str) -> tuple[str, ...]:
-    return tuple(edge.target for edge in skill.edges if edge.to in nouns)
 
 
 def _edge(edge: model.Edge, sent: tuple[str, Receiver], read: Mapping[str, tuple[str, str]]) -> model.Edge:
@@ -109,7 +104,8 @@ def _replaced(
 ) -> str:
     """What a line replaces of the other skill, an input by one of its width; empty after reporting an error."""
     name, verb = fact.name.text, verb_of(fact)
-    known = other.reads if isinstance(fact, Reads) else _targets(other, *NOUNS[type(fact)])
+    sent = tuple(edge.target for edge in other.edges if edge.to in NOUNS[type(fact)])
+    known = other.reads if isinstance(fact, Reads) else sent
     has = f"{other.name} {verb} {listed(known, 'and') if known else 'nothing'}."
     if fact.stands_for is None:
         message = f"It is not said what {name} stands for."

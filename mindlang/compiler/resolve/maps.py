@@ -41,24 +41,20 @@ def text_lines(value: Value, root: Path | None, findings: Findings) -> tuple[str
         data = read_regular(path, MAX_SOURCE_BYTES + 1)
         text = "" if PICTURES.match(data) else decode_source(data)
     except (OSError, ValueError, RuntimeError) as error:
-        why = f": {reason(error)}" if isinstance(error, OSError) else f": it {error}"
+        why = f"cannot be read: {reason(error)}" if isinstance(error, OSError) else f"cannot be read: it {error}"
         hint = "The path is relative to the file in which it stands; a map is a text of # and . and letters."
-        findings.error("unreadable-map", value.span, f"{value.text} cannot be read{why}.", hint)
-        return None
-    if PICTURES.match(data):
-        hint = f"{SQUARES}. {IMPORT} map.yaml makes one of a picture of ROS."
-        findings.error("unreadable-map", value.span, f"{value.text} is a picture.", hint)
-        return None
-    if len({found.group(1) for found in ROS.finditer(text)}) > 1:
-        message = f"{value.text} is the YAML file of a map of ROS, and no drawing."
+    else:
         hint = f"{SQUARES}. {IMPORT} {value.text} -o walls.txt makes one of it."
-        findings.error("unreadable-map", value.span, message, hint)
-        return None
-    if DRAWING.search(text):
-        hint = f"{SQUARES}. {IMPORT} {value.text} -o walls.txt makes one of it."
-        findings.error("unreadable-map", value.span, f"{value.text} is a maze drawn with + - |.", hint)
-        return None
-    return tuple(line.rstrip() for line in text.rstrip().split("\n"))
+        if PICTURES.match(data):
+            why, hint = "is a picture", f"{SQUARES}. {IMPORT} map.yaml makes one of a picture of ROS."
+        elif len({found.group(1) for found in ROS.finditer(text)}) > 1:
+            why = "is the YAML file of a map of ROS, and no drawing"
+        elif DRAWING.search(text):
+            why = "is a maze drawn with + - |"
+        else:
+            return tuple(line.rstrip() for line in text.rstrip().split("\n"))
+    findings.error("unreadable-map", value.span, f"{value.text} {why}.", hint)
+    return None
 
 
 def path_of(value: Text) -> Path | None:

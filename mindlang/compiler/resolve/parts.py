@@ -13,9 +13,12 @@ from mindrun.kinds.sensors.sensor import directions
 from mindrun.numbers.quantity import SKILL
 from msgspec.structs import replace
 
+from mindlang.compiler import syntax
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
+from mindlang.compiler.families import said
+from mindlang.compiler.format import spaced
 from mindlang.compiler.hierarchy import circles, reverse_topological_order
-from mindlang.compiler.model import Part, source_graph
+from mindlang.compiler.model import Part, Promise, source_graph
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
@@ -69,6 +72,17 @@ def said_once(
     return [same[0] for same in by_message.values()]
 
 
+def promises(
+    declaration: Declaration, names: Names, widths: Mapping[str, int], findings: Findings
+) -> tuple[Promise, ...]:
+    """The promises of a skill in the order of their lines; they need not be of what it reads itself."""
+    made_of, where = "numbers, sensors and memories", "What a skill promises"
+    visible = Visible(widths, unread=names.unread, made_of=made_of, where=where)
+    facts = of_form(declaration.facts, syntax.Promise)
+    lines = said_once(facts, lambda fact: f"The skill already {spaced(said(fact))}.", findings, ONE_OF_TWO)
+    return tuple(Promise(resolve_expressions(fact, visible, findings), fact) for fact in lines)
+
+
 def sensors(names: Names, findings: Findings) -> Parts:
     """The sensors with their widths, as they are declared; those that are computed from themselves are reported."""
     plain = {sensor.name: sensor for sensor in resolve_parts("sensor", names, findings)}
@@ -94,8 +108,8 @@ def sensors(names: Names, findings: Findings) -> Parts:
         if flaw := sensor.kind.flaw(widths, around) or sensor.kind.misfit(kinds):
             header = names.table["sensor"][sensor.name].header
             arguments = header.phrase.arguments if header.phrase else ()
-            said = (each.value.span for each in arguments if each.key.text == flaw.field)
-            findings.error(flaw.code, next(said, header.span), flaw.message, flaw.hint)
+            places = (each.value.span for each in arguments if each.key.text == flaw.field)
+            findings.error(flaw.code, next(places, header.span), flaw.message, flaw.hint)
     return found
 
 

@@ -17,8 +17,7 @@ from mindlang.compiler.references import DRIVABLE_NOUNS
 from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.likeness import alike, unsaid
-from mindlang.compiler.resolve.parts import ONE_OF_TWO, refuse_facts, said_once
-from mindlang.compiler.resolve.promises import resolve_promises
+from mindlang.compiler.resolve.parts import ONE_OF_TWO, promises, refuse_facts, said_once
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Chooses, Declaration, Drives, Influences, Reads, Sends, Stays, Uses, of_form
 
@@ -65,10 +64,10 @@ def _skill(
     if function and declaration.whole:
         _check_works(declaration, function, edges, findings)
     frozen, chooses = (_is_so(declaration, form, findings) for form in (Stays, Chooses))
-    promises = resolve_promises(declaration, names, widths, findings)
+    promised = promises(declaration, names, widths, findings)
     files = _files(declaration, function, findings)
     return model.Skill(
-        name, function, reads, edges, frozen, declaration, chooses=chooses, promises=promises, files=files
+        name, function, reads, edges, frozen, declaration, chooses=chooses, promises=promised, files=files
     )
 
 

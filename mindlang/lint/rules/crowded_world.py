@@ -1,9 +1,4 @@
-"""A world in which its things hardly fit.
-
-What has no place of its own is put down where a try finds one that is clear of all other things, and by the robot's
-width of walls and obstacles. Where they leave hardly any, the last of them stands in another thing or in an obstacle,
-and nothing says so. Worlds of the task are drawn here as training draws them.
-"""
+"""A world in which its things hardly fit."""
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -20,27 +15,16 @@ from mindrun.numbers.quantity import Place, Span
 
 from mindlang.compiler.model import Task
 from mindlang.compiler.syntax import Contains, of_form
-from mindlang.lint.study import Finding, Found, Study, once_a_line
+from mindlang.lint.study import Finding, Found, Study, rule
 
 MAX_TRIES = 200  # for one thing; the lanes try 1000 times
 ROBOT = "the robot"
 MAX_WORLDS, MAX_LOOKS = 100, 200_000  # as many worlds as cost no more than that
-
-BINS = """
-sensor bin_bearing is bearing of bin
-task Sort in arena size {}
-  contains bin is zone size 5 count 12 away 0 to 100
-  contains rock is obstacle count {} size 3
-  lasts 9 s
-  rewards 10 on reach of bin
-"""
-GOOD = BINS.format(60, 10)
-BAD = (BINS.format(30, 10), BINS.format(60, 100))
 HINT = "Make the arena larger, or what is in it smaller or fewer, or say where it stands: at 10 -5."
 
 
-@once_a_line
-def check(study: Study) -> Found:
+@rule(once_a_line=True)
+def crowded_world(study: Study) -> Found:
     for task in study.mind.tasks:
         lacking, worlds = _lacking(study, task)
         if lacking:

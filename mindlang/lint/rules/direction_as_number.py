@@ -1,10 +1,4 @@
-"""A direction that is compared as if it were a number on a line.
-
-A compass or a bearing goes round: just behind on the left it reads 0, just behind on the right 1. So `when north > 90%`
-is behind on the right alone, and a latch of one flips behind, however far apart its thresholds are. Compare with both
-sides, or how far it is off: `computed at greatest of north (1 - north)` is 0.5 straight ahead and 1 behind. Of two
-directions neither is less, and a memory that decays mixes what it is sent as numbers.
-"""
+"""A direction that is compared as if it were a number on a line."""
 
 from collections import Counter
 from collections.abc import Iterator, Set
@@ -15,26 +9,11 @@ from mindrun.numbers.expression import fold
 
 from mindlang.compiler.syntax import Comparison, Term, When
 from mindlang.lint.intervals import OPPOSITES, STRICT, TURNED, UPPER
-from mindlang.lint.study import Finding, Found, Study
-
-SENSORS = "sensor north is compass\nsensor off is computed at greatest of north (1 - north)\n"
-SKILL = "skill Go is rule\n  reads north\n  drives left_wheel at 1 when"
-GOOD = (
-    f"{SENSORS}sensor behind is latch of off below 70% above 80%\n",
-    f"{SENSORS}{SKILL} north > 90% or north < 10%\n",
-    f"{SENSORS}{SKILL} north > 0.5\n",
-    f"{SENSORS}memory seen is cell decay 0\n{SKILL} north > 0.5\n  drives seen at north\n",
-)
-BAD = (
-    f"{SENSORS}sensor behind is latch of north below 20% above 80%\n",
-    f"{SENSORS}{SKILL} north > 90%\n",
-    f"{SENSORS}sensor home is compass\n{SKILL} north - home > 0.1\n  reads home\n",
-    f"{SENSORS}memory seen is cell decay 0.5\n{SKILL} north > 0.5\n  drives seen at north\n",
-    "sensor north is compass\ntask Course in arena\n  lasts 9 s\n  rewards 1 per tick when north >= 3/4\n",
-)
+from mindlang.lint.study import Finding, Found, Study, rule
 
 
-def check(study: Study) -> Found:
+@rule()
+def direction_as_number(study: Study) -> Found:
     known = directions(study.sensors)
     for sensor in study.mind.sensors:
         if sensor.kind.compares and sensor.kind.source in known:

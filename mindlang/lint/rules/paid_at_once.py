@@ -1,10 +1,4 @@
-"""A run that is decided, or paid for nothing, in its first tick.
-
-The robot starts where it has what it is to reach: in the zone, with the item in its claw's reach, the box in its own
-zone, the battery already low. In some runs or in all, by where things stand or which way the robot happens to face.
-What an end is about is left clear where the start is drawn; what is only rewarded is not, since what measures changes
-no world.
-"""
+"""A run that is decided, or paid for nothing, in its first tick."""
 
 from dataclasses import dataclass, replace
 from math import pi
@@ -15,37 +9,13 @@ from mindrun.numbers.intervals import UNIT_INTERVAL, Interval
 from mindlang.compiler.beginning import Beginning, first_tick_hint
 from mindlang.compiler.model import Task
 from mindlang.lint.intervals import interval, why_always
-from mindlang.lint.study import Finding, Found, Study, once_a_line
+from mindlang.lint.study import Finding, Found, Study, rule
 
 LEAST_SHARE = 0.01  # of runs that are worth a word
 
-TASK = """
-sensor charge is battery start 60%
-sensor in_goal is inside of goal
-task Course in arena size 40
-  contains goal is zone size 12 at 10 0
-  contains coin is item size 1 at -10 2
-  lasts 9 s
-  starts at -10 0
-  rewards 1 on reach of goal
-"""
-GOOD = (
-    TASK,
-    TASK.replace("-10 0\n", "-10 0 facing -90 deg\n  ends on reach of coin\n"),
-    TASK.replace("-10 0\n", "-10 0\n  ends when charge < 50%\n  succeeds when in_goal > 0.5\n"),
-    TASK.replace("  starts at -10 0\n", "").replace("rewards 1", "succeeds"),
-)
-BAD = (
-    TASK.replace("-10 0\n", "9 0\n"),
-    TASK.replace("-10 0\n", "-10 0\n  ends on reach of coin\n"),
-    TASK.replace("-10 0\n", "-10 0\n  ends when charge < 70%\n"),
-    TASK.replace("-10 0\n", "9 0\n  succeeds when in_goal > 0.5\n").replace("  rewards 1 on reach of goal\n", ""),
-    TASK.replace("  starts at -10 0\n", ""),
-)
 
-
-@once_a_line
-def check(study: Study) -> Found:
+@rule(once_a_line=True)
+def paid_at_once(study: Study) -> Found:
     for task in study.mind.tasks:
         yield from _FirstTick(study, task, study.beginning(task)).found()
 

@@ -1,9 +1,4 @@
-"""A part of the floor to which no way leads from where the robot starts.
-
-Walls stand between, or a passage that is narrower than the robot, in all runs or where an obstacle is as large as it
-may be. Where the robot starts or a thing appears is drawn anywhere: in some runs one is here and the other there, and
-nobody can succeed. Open the wall, widen the passage, or fill with `#` what nobody is to enter.
-"""
+"""A part of the floor to which no way leads from where the robot starts."""
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Sequence
@@ -16,35 +11,17 @@ from mindrun.numbers.quantity import Place
 
 from mindlang.compiler.beginning import PLAIN_START
 from mindlang.compiler.model import Task
-from mindlang.lint.study import Finding, Found, Study, once_a_line
+from mindlang.lint.study import Finding, Found, Study, rule
 
 LEAST_SHARE = 0.01  # of the floor that is worth a word
 MAX_CELLS = 250_000
 ROOM_UNITS = 1e-6  # that a passage is wider than it is
 CHAMFER_SHARE = 0.7071  # half of the side of a square in a disc of radius 1, and a little less
-
-HALL = """
-task Hall in arena size 40
-  contains fence is wall from -20 0 to {} 0
-  contains goal is zone size 4{}
-  lasts 9 s
-  succeeds on reach of goal
-"""
-GOOD = (
-    HALL.format(15, ""),
-    HALL.format(20, " at 0 10\n  starts at 5 5"),
-    HALL.format(15, " at 0 10\n  starts at 15 5"),
-)
-BAD = (
-    HALL.format(20, ""),
-    HALL.format(20, " at 0 10\n  starts at 5 -5"),
-    HALL.format(15, " at 0 10\n  starts at 5 -5\n  contains plug is obstacle at 17.5 0 size 1 to 5"),
-)
 HINT = "Open a wall or widen a passage, or fill with wall what nobody is to enter."
 
 
-@once_a_line
-def check(study: Study) -> Found:
+@rule(once_a_line=True)
+def walled_off(study: Study) -> Found:
     for task in study.mind.tasks:
         yield from _of_task(study, task)
 

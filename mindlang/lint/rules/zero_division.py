@@ -1,10 +1,4 @@
-"""A division by what can be 0.
-
-Every reading, command and memory can be 0, and what is divided by 0 is no number: a reward that is none takes the whole
-run out of a training, a sensor that is none makes its skills send nothing, a command that is none is not sent. One tick
-is enough, in which a range finder touches something. A number that is added below keeps it away from 0, and so does a
-condition, `1 / ahead per tick when ahead > 0.05`; that is looked at for readings and numbers alone.
-"""
+"""A division by what can be 0."""
 
 from collections.abc import Iterator, Sequence
 from math import inf, nextafter
@@ -13,34 +7,17 @@ from mindrun.numbers.intervals import Interval
 from msgspec.structs import replace
 
 from mindlang.compiler.syntax import Comparison, Expression, Term, When
-from mindlang.lint.examples import COURSE, EYE, READS
 from mindlang.lint.intervals import OPPOSITES, UPPER, bounds, divisors
-from mindlang.lint.study import AnalysedWorld, Conditional, Finding, Found, Study
+from mindlang.lint.study import AnalysedWorld, Conditional, Finding, Found, Study, rule
 
-BEGIN = EYE + COURSE
-RATIO = "sensor near is range_finder at 0 deg\nsensor far is range_finder at 90 deg\n"
-GOOD = (
-    f"{READS}  drives left_wheel at 0.1 / (eye + 0.1)\n",
-    f"{READS}  drives left_wheel at 0.1 / eye when eye > 0 otherwise 1\n",
-    f"{READS}  drives left_wheel at 1 when eye < 0.1 otherwise 0.1 / eye\n",
-    f"{BEGIN}  ends when eye > 10% and 0.01 / eye > 9%\n",
-    f"{BEGIN}  rewards 1 / eye per tick when eye >= 5%\n",
-    f"{RATIO}sensor ratio is computed at near / (near + far + 0.01)\n",
-    f"{RATIO}sensor ratio is computed at near / far when far > 0.1 otherwise 0\n",
-)
-BAD = (
-    f"{READS}  drives left_wheel at 0.1 / eye\n",
-    f"{READS}  drives left_wheel at 1 when eye > 0.5 otherwise 0.1 / eye\n",
-    f"{BEGIN}  rewards 1 / eye per tick\n",
-    f"{RATIO}sensor ratio is computed at near / (near + far)\n",
-)
 MESSAGE = "What is divided by here can be 0, and then this is not a number."
 Alternatives = tuple[tuple[Comparison, ...], ...]
 ALWAYS: Alternatives = ((),)  # nothing has to hold
 HINT = "Add a little to it, as in 1 / (ahead + 0.01), or say when: 1 / ahead per tick when ahead > 0.01."
 
 
-def check(study: Study) -> Found:
+@rule()
+def zero_division(study: Study) -> Found:
     for value, alternatives, of, world in _values(study):
         if any(_divides_by_zero(value, all_, of, world) for all_ in alternatives):
             yield Finding(value.span, MESSAGE, HINT)
@@ -84,11 +61,7 @@ def _divides_by_zero(value: Expression, all_: Sequence[Comparison], of: Conditio
         return ranges.get(name, world.reading(name))
 
     can_hold = all(low <= high for low, high in ranges.values())
-    return can_hold and _has_zero(divisors(value, reading, world.each(of)))
-
-
-def _has_zero(found: Sequence[Interval]) -> bool:
-    return any(low <= 0 <= high for low, high in found)
+    return can_hold and any(low <= 0 <= high for low, high in divisors(value, reading, world.each(of)))
 
 
 def _within(of: Interval, compare: str, number: float) -> Interval:

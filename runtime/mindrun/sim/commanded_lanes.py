@@ -22,7 +22,7 @@ from mindrun.kinds.events.event import EventKind
 from mindrun.kinds.functions.function import Rule
 from mindrun.kinds.registry import names
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS
-from mindrun.numbers.arrays import Array, Doubles, Integers, Bools, Singles
+from mindrun.numbers.arrays import Array, Bools, Doubles, Integers, Singles
 from mindrun.sim.arrays import whole_vectors
 from mindrun.sim.codes import GOING_ON, LOST
 from mindrun.sim.lanes.advance import after, before

@@ -14,7 +14,7 @@ import numpy as np
 from mindrun.engine.changes import Change, Changed, ChangeError, calm_ticks, in_tick
 from mindrun.engine.think import in_scopes
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, COSINE, LOOSE_ROWS, SINE, SIZE, THING_ROWS, TURN
-from mindrun.numbers.arrays import Array, Doubles, Integers, Bools, Singles
+from mindrun.numbers.arrays import Array, Bools, Doubles, Integers, Singles
 from mindrun.numbers.short_repr import ShortRepr
 from mindrun.sim.codes import Tables
 from mindrun.sim.lanes.advance import before

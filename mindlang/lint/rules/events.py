@@ -1,0 +1,45 @@
+"""What ends a task, is paid or counted."""
+
+from mindlang.compiler.syntax import Contains, Counts, of_form
+from mindlang.lint.intervals import why_never
+from mindlang.lint.study import Finding, Found, Study, removal, rule, saying
+
+
+@rule()
+def dead_event(study: Study) -> Found:
+    for task in study.mind.tasks:
+        world = study.worlds[task.name]
+        counted = zip(of_form(task.facts, Counts), task.counts, strict=True)
+        for fact, event in (*((end.fact, end.event) for end in task.ends), *counted):
+            if fact.event and event and (why := event.hindrance(world)):
+                yield Finding(fact.event.span, f"This never happens: {why[0]}.", why[1], fix=removal(fact))
+        for end in task.ends:
+            if end.when and (never := why_never(end.when, world.range_in(end))):
+                hint = "Compare with something that is reached, or take the line out."
+                yield Finding(end.when.span, f"This never happens: {never}.", hint, fix=removal(end.fact))
+
+
+@rule()
+def dead_reward(study: Study) -> Found:
+    for task in study.mind.tasks:
+        for reward in task.rewards:
+            if why := study.worlds[task.name].why_never_paid(reward):
+                span, message, hint = why
+                fix = removal(reward.fact, "Remove the reward")
+                yield Finding(span, f"This reward is never paid: {message}.", hint, fix=fix)
+
+
+REACHED = "reached"  # the argument that is left out
+
+
+@rule(once_a_line=True)
+def unsaid_outcome(study: Study) -> Found:
+    for task in study.mind.tasks:
+        events = [*task.counts, *(reward.on for reward in task.rewards if reward.on)]
+        ending = {end.event for end in task.ends if end.times == 1 and not end.opens}
+        reached = {event.thing for event in events if event.outcome == REACHED and event not in ending}
+        for name, phrase in ((fact.name, fact.phrase) for fact in of_form(task.facts, Contains)):
+            if name.text in reached and all(argument.key.text != REACHED for argument in phrase.arguments):
+                hint = "Write reached stays, or reached moves to have it appear elsewhere as it once did."
+                fix = saying([phrase], "reached moves")
+                yield Finding(name.span, f"{name.text} stays where it is when it is reached.", hint, fix=fix)
