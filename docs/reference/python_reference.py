@@ -7,10 +7,18 @@ from inspect import cleandoc, getsource, isclass, isroutine
 from textwrap import dedent
 from types import ModuleType
 
+from mindrun.numbers import arrays
 from mindrun.numbers.short_repr import ShortRepr
 
 LINE_CHARACTERS = 100  # of a signature
 ARGUMENT = re.compile(r", (?=\w+[:=]|\*)")  # before the next one: no comma of a type
+ARRAYS = {  # what the sources call arrays, written out
+    node.targets[0].id: ast.unparse(node.value)
+    for node in ast.parse(getsource(arrays)).body
+    if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name)
+    if ast.unparse(node.value).startswith("NDArray[")
+}
+NAMED_ARRAY = re.compile(rf"\b({'|'.join(ARRAYS)})\b")
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
@@ -68,7 +76,7 @@ def _documented(node: Function | ast.ClassDef) -> Iterator[str]:
 
 
 def _code(*lines: str) -> Iterator[str]:
-    yield from ("```python", *lines, "```", "")
+    yield from ("```python", *(NAMED_ARRAY.sub(lambda found: ARRAYS[found[0]], line) for line in lines), "```", "")
 
 
 def _is_public(node: ast.AST) -> bool:

@@ -39,7 +39,7 @@ def test_it_ends_when_the_editor_is_rude_or_gone(tmp_path: Path) -> None:
 
 
 def test_without_pygls_it_says_what_to_do(mindc: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mindlang.cli.lsp.find_spec", lambda name: None)
+    monkeypatch.setattr("mindlang.cli._terminal.find_spec", lambda name: None)
     said = mindc("lsp")
     assert said.code == 2
     assert "pip install 'mindlang[lsp]'" in said.err

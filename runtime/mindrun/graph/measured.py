@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 from mindrun.graph.graph import Graph, Sensor, Skill, Task
 from mindrun.graph.named_readings import physical
 from mindrun.graph.skill_sets import reachable
-from mindrun.numbers.arrays import Bools
 from mindrun.numbers.expression import leaves
 
 if TYPE_CHECKING:
-    pass
+    from mindrun.numbers.arrays import Bools
 
 
 def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> tuple[list[Sensor], list[Sensor]]:

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 from mindrun.errors import ReadingsError, nearest
 from mindrun.graph.graph import Graph, Sensor
 from mindrun.kinds.sensors.sensor import SensorKind
-from mindrun.numbers.arrays import Singles
 
 if TYPE_CHECKING:
-    pass
+    from mindrun.numbers.arrays import Singles
 
 
 def physical(graph: Graph) -> dict[str, Sensor]:
