@@ -134,6 +134,7 @@ def _words(code: str, start: Start) -> Iterator[tuple[int, int, str]]:
     whole = grammar().parse(code, start=start)
     parts = (tree.children[0] for tree in whole.iter_subtrees() if tree.children)
     signs = {part.start_pos for part in parts if isinstance(part, Token) and part.type in ("SIGN", "MINUS")}
+    own = {*signs}  # of one number or one operand
     for numbers in whole.find_data("numbers"):
         inside = [part for part in numbers.scan_values(bool) if isinstance(part, Token)]
         is_list = not any(part.type in ("NAME", "SCALE") for part in inside) and not [*numbers.find_data("nested")]
@@ -141,7 +142,8 @@ def _words(code: str, start: Start) -> Iterator[tuple[int, int, str]]:
     tokens = list(grammar().parse_interactive(code, start=start).iter_parse())
     for token, following in zip(tokens, [*tokens[1:], None], strict=True):
         first = token.start_pos or 0
-        glued = following is None or token == "(" or following in (")", "%") or first in signs
+        subtracts = first not in own and following is not None and following.start_pos in own  # as in 30 - -15
+        glued = following is None or token == "(" or following in (")", "%") or (first in signs and not subtracts)
         yield first, token.end_pos or 0, "" if glued else " "
 
 
