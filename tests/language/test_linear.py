@@ -5,7 +5,7 @@ import pytest
 from benchmarks.doubling import COMMANDS, LINEAR_RATIO, calls, growth
 from benchmarks.shapes import SHAPES
 
-LINES, WORDS = 20, 160  # a line of a few words is explained otherwise than a long one
+LINES, WORDS = 40, 160  # a line of a few words is explained otherwise than a long one
 FEW_CALLS = 1000
 FEW = ("skills that nobody reaches", "things not there")
 ALL = [pytest.param(shape, marks=() if shape in FEW else pytest.mark.slow) for shape in SHAPES]
