@@ -271,7 +271,10 @@ class JobScorer(WrappedScorer):
             raise ValueError("a genome has weights that are not finite numbers")
         genomes, words = np.ascontiguousarray(genomes, np.float32), np.array(seeds, np.uint64)
         whole = empty_scores(len(genomes), len(words), self.task)
-        size = lambda: runs_in_a_job(len(genomes) * len(words), self.jobs.workers, self._seconds)  # noqa: E731
+
+        def size() -> int:
+            return runs_in_a_job(len(genomes) * len(words), self.jobs.workers, self._seconds)
+
         left, open_jobs = blocks(len(genomes), len(words), size), dict[int, Block]()
         block = next(left, None)
         while block or open_jobs:

@@ -62,7 +62,7 @@ class Subject:
         return frozenset(name for name, each in status(self.graph, self.lock).items() if isinstance(each, Trained))
 
     def standing(self, lesson: Lesson) -> dict[str, Status]:
-        """Of each learner of a lesson, in the lock of `keep_path`."""
+        """The status of each learner of a lesson in the lock of `keep_path`, by the skill."""
         found = status(self.graph, read_lock(self.keep_path(lesson)), self.folder)
         return {skill: found[skill] for skill in learners(self.graph, lesson)}
 

@@ -38,7 +38,7 @@ class CommonMistakes:
 
 @cache
 def common_mistakes() -> CommonMistakes:
-    """All of them."""
+    """The common mistakes, read from `mistakes.toml` once."""
     import tomllib
 
     said = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
