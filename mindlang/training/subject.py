@@ -187,15 +187,18 @@ def _brought(graph: Graph, lesson: Lesson, origin: Skill, weights: Weights) -> W
     own, its = signature(graph, learner), signature(graph, origin)
     begun = (each for each in graph.lessons if each.curriculum == lesson.curriculum and each.starts_from)
     heirs = {each.skill: each.starts_from for each in begun}
-    inputs, outputs = (_places(*names, heirs) for names in ((own.reads, its.reads), (own.sends, its.sends)))
+    kinds = {sensor.name: type(sensor.kind).__name__ for sensor in graph.sensors}
+    inputs, outputs = (_places(*names, heirs, kinds) for names in ((own.reads, its.reads), (own.sends, its.sends)))
     before = sum(map(width, its.reads)), len(its.sends)
     wide = origin.function.widened(weights, before, learner.function, (len(inputs), len(outputs)))
     return learner.function.reordered(weights if wide is None else wide, inputs, outputs)
 
 
-def _places(of: tuple[str, ...], among: tuple[str, ...], heirs: Mapping[str, str]) -> list[int]:
+def _places(
+    of: tuple[str, ...], among: tuple[str, ...], heirs: Mapping[str, str], kinds: Mapping[str, str]
+) -> list[int]:
     """For each value of these names its place among those of the other names, behind which new ones are."""
-    found = counterparts(of, among, heirs)
+    found = counterparts(of, among, heirs, kinds)
     if found is None:
         raise RunError("these weights do not fit", "run mindc check")
     return places(of, (*among, *(name for name in of if name not in found)), found)

@@ -26,28 +26,28 @@ LESSONS = "  teaches Go on Roam for 10 generations\n  teaches Far on Roam for 10
 
 
 def test_what_stands_for_what() -> None:
-    assert counterparts(("a", "b"), ("b", "a"), {}) == {"a": "a", "b": "b"}
-    assert counterparts(("a", "c:3"), ("c:3", "b"), {}) == {"a": "b", "c:3": "c:3"}
-    assert counterparts(("a", "c:3"), ("d:3", "b"), {}) == {"a": "b", "c:3": "d:3"}
-    assert counterparts(("a", "c"), ("d", "b"), {}) is None
-    assert counterparts(("a", "c:3"), ("a", "c:4"), {}) is None
-    assert counterparts(("a",), ("a", "b"), {}) is None
-    assert counterparts(("a", "d", "e"), ("b", "c"), {}) is None
+    assert counterparts(("a", "b"), ("b", "a"), {}, {}) == {"a": "a", "b": "b"}
+    assert counterparts(("a", "c:3"), ("c:3", "b"), {}, {}) == {"a": "b", "c:3": "c:3"}
+    assert counterparts(("a", "c:3"), ("d:3", "b"), {}, {}) == {"a": "b", "c:3": "d:3"}
+    assert counterparts(("a", "c"), ("d", "b"), {}, {}) is None
+    assert counterparts(("a", "c:3"), ("a", "c:4"), {}, {}) is None
+    assert counterparts(("a",), ("a", "b"), {}, {}) is None
+    assert counterparts(("a", "d", "e"), ("b", "c"), {}, {}) is None
 
 
 def test_what_is_new_stands_for_nothing() -> None:
-    assert counterparts(("b", "a"), ("a",), {}) == {"a": "a"}
-    assert counterparts(("a", "c:3", "d:3"), ("a",), {}) == {"a": "a"}
-    assert counterparts(("a", "c:3"), ("b",), {}) == {"a": "b"}
-    assert counterparts(("a", "b"), ("c",), {}) is None
+    assert counterparts(("b", "a"), ("a",), {}, {}) == {"a": "a"}
+    assert counterparts(("a", "c:3", "d:3"), ("a",), {}, {}) == {"a": "a"}
+    assert counterparts(("a", "c:3"), ("b",), {}, {}) == {"a": "b"}
+    assert counterparts(("a", "b"), ("c",), {}, {}) is None
 
 
 def test_a_skill_stands_for_the_one_that_it_began_as() -> None:
     heirs = {"New": "Old", "Other": "Older"}
-    assert counterparts(("New", "Other"), ("Older", "Old"), heirs) == {"New": "Old", "Other": "Older"}
-    assert counterparts(("New", "Some"), ("Old", "Older"), heirs) == {"New": "Old", "Some": "Older"}
-    assert counterparts(("New", "Old"), ("Old",), heirs) == {"Old": "Old"}
-    assert counterparts(("New", "Newer"), ("Old",), heirs | {"Newer": "Old"}) is None
+    assert counterparts(("New", "Other"), ("Older", "Old"), heirs, {}) == {"New": "Old", "Other": "Older"}
+    assert counterparts(("New", "Some"), ("Old", "Older"), heirs, {}) == {"New": "Old", "Some": "Older"}
+    assert counterparts(("New", "Old"), ("Old",), heirs, {}) == {"Old": "Old"}
+    assert counterparts(("New", "Newer"), ("Old",), heirs | {"Newer": "Old"}, {}) is None
 
 
 @given(

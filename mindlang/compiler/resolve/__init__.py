@@ -49,7 +49,7 @@ def resolve_mind(files: Sequence[File], findings: Findings) -> model.Mind | None
     robot = RobotFacts(names, width, tick, files[0].source.folder, body, actuators, known_sensors)
     known_tasks = resolve_tasks(robot, findings)
     check_outside(known_tasks, known_sensors, actuators, findings)
-    known_lessons = tuple(lessons(names, known_skills, influences, known_tasks, width, findings))
+    known_lessons = tuple(lessons(names, known_skills, influences, known_tasks, known_sensors, width, findings))
     if body and not outside:
         check_drives(body, actuators, findings)
     head = _master(files[0], names, findings)

@@ -39,12 +39,13 @@ def lessons(
     skills: tuple[model.Skill, ...],
     influences: DiGraph,
     tasks: tuple[model.Task, ...],
+    sensors: Sequence[model.Part[Any]],
     widths: Mapping[str, int],
     findings: Findings,
 ) -> Iterator[model.Lesson]:
     """Every lesson of every curriculum that is well said; those that others wait for come first."""
     known = {skill.name: skill for skill in skills}, influences, {task.name: task for task in tasks}
-    context = _LessonContext(names, *known, widths, findings)
+    context = _LessonContext(names, *known, {each.name: type(each.kind).__name__ for each in sensors}, widths, findings)
     for name, declaration in names.declarations("curriculum"):
         refuse_facts(declaration, ("teaches",), findings)
         phrase = declaration.header.phrase
@@ -64,6 +65,7 @@ class _LessonContext:
     skills: Mapping[str, model.Skill]
     influences: DiGraph
     tasks: Mapping[str, model.Task]
+    kinds: Mapping[str, str]
     widths: Mapping[str, int]
     findings: Findings
 
@@ -254,7 +256,7 @@ class _LessonContext:
         if other.owner == learner.name:
             hint = f"Leave from {origin.text} out: it begins with its weights."
             self.findings.error("own-origin", origin.span, f"{learner.name} has these weights already.", hint)
-        elif difference := _difference(learner, other, self.widths, heirs):
+        elif difference := self._difference(learner, other, heirs):
             hint = (
                 "Weights fit the same function. Of its readings and outputs one each may be another, and what is read "
                 "or influenced beside them is new."
@@ -262,33 +264,31 @@ class _LessonContext:
             message = f"{learner.name} cannot begin with the weights of {other.name}: {difference}."
             self.findings.error("other-shape", origin.span, message, hint)
 
+    def _difference(self, learner: model.Skill, other: model.Skill, heirs: Mapping[str, str]) -> str:
+        """Why weights of one skill do not fit another; empty where they do."""
+        if not other.function.learns:
+            return f"{other.name} learns nothing"
+        found: dict[str, str] = {}
+        for verb, mine, others in (
+            ("reads", *([f"{name}:{self.widths.get(name, 1)}" for name in skill.reads] for skill in (learner, other))),
+            ("sends to", *(_sends(skill) for skill in (learner, other))),
+        ):
+            stands = counterparts(mine, others, heirs, self.kinds)
+            if stands is None:
+                own, its = _words(mine, others), _words(others, mine)
+                where = f"{learner.name} {verb} {own} where {other.name} {verb} {its}"
+                return f"{where}, and which stands for which cannot be told"
+            found |= stands
+        commands = [edge.target for edge in learner.edges if edge.at is None and edge.to == "actuator"]
+        if driven := [name for name in commands if name not in found]:
+            return f"{learner.name} drives {listed(driven, 'and')}, too, and a command of 0 is one"
+        return "" if _holds(learner, other, self.widths) else "their functions differ"
+
 
 def _origin(written: Sequence[Argument]) -> Name | None:
     """The skill with a copy of whose weights a lesson begins."""
     values = (argument.value for argument in written if argument.key.text == FROM)
     return next((value for value in values if isinstance(value, Name) and value.text[0].isupper()), None)
-
-
-def _difference(learner: model.Skill, other: model.Skill, widths: Mapping[str, int], heirs: Mapping[str, str]) -> str:
-    """Why weights of one skill do not fit another; empty where they do."""
-    if not other.function.learns:
-        return f"{other.name} learns nothing"
-    found: dict[str, str] = {}
-    for verb, mine, others in (
-        ("reads", *([f"{name}:{widths.get(name, 1)}" for name in skill.reads] for skill in (learner, other))),
-        ("sends to", *(_sends(skill) for skill in (learner, other))),
-    ):
-        stands = counterparts(mine, others, heirs)
-        if stands is None:
-            return (
-                f"{learner.name} {verb} {_words(mine, others)} where {other.name} {verb} {_words(others, mine)}, and "
-                "which stands for which cannot be told"
-            )
-        found |= stands
-    commands = [edge.target for edge in learner.edges if edge.at is None and edge.to == "actuator"]
-    if driven := [name for name in commands if name not in found]:
-        return f"{learner.name} drives {listed(driven, 'and')}, too, and a command of 0 is one"
-    return "" if _holds(learner, other, widths) else "their functions differ"
 
 
 def _holds(learner: model.Skill, other: model.Skill, widths: Mapping[str, int]) -> bool:
@@ -316,17 +316,30 @@ def _words(names: Sequence[str], but: Sequence[str]) -> str:
     return listed(found, "and") if found else "nothing more"
 
 
-def counterparts(of: Sequence[str], among: Sequence[str], heirs: Mapping[str, str]) -> dict[str, str] | None:
+def counterparts(
+    of: Sequence[str], among: Sequence[str], heirs: Mapping[str, str], kinds: Mapping[str, str]
+) -> dict[str, str] | None:
     """For each of these names the other skill's that it stands for, none where it is new; None if it cannot be told.
 
     The same name stands for itself, and a skill for the one with whose weights it begins (`heirs`). What else only the
-    other one has is stood for by the only one of the same width that the other does not have. Of a width of which
-    nothing is missing then, all that is left is new. Names say their width as in a lock: proximity:10.
+    other one has is stood for by the only sensor of the same kind (`kinds`, by name) and width that the other does not
+    have, and else by the only name of the same width. Of a width of which nothing is missing then, all that is left is
+    new. Names say their width as in a lock: proximity:10.
     """
     found = {name: name for name in of if name in among}
     found |= {name: heirs[name] for name in of if heirs.get(name) in among and heirs[name] not in found}
     if len(set(found.values())) < len(found):
         return None
+
+    def shape(name: str) -> tuple[str | None, str]:
+        plain, _, width = name.partition(":")
+        return kinds.get(plain), width
+
+    for missing in [name for name in among if name not in found.values()]:
+        others = [name for name in among if shape(name) == shape(missing) and name not in found.values()]
+        standing = [name for name in of if shape(name) == shape(missing) and name not in found]
+        if len(others) == len(standing) == 1:
+            found[standing[0]] = missing
     own = [name for name in of if name not in found]
     for missing in [name for name in among if name not in found.values()]:
         width = missing.partition(":")[2]
