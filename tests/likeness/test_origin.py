@@ -35,6 +35,17 @@ def test_what_stands_for_what() -> None:
     assert counterparts(("a", "d", "e"), ("b", "c"), {}, {}) is None
 
 
+def test_of_each_kind_of_sensor_one_stands_for_the_only_one() -> None:
+    kinds = {"a": "Bearing", "b": "Contact", "eyes": "Range", "x": "Bearing", "y": "Inside", "z": "Bearing"}
+    assert counterparts(("a", "b"), ("x", "y"), {}, kinds) == {"a": "x", "b": "y"}
+    assert counterparts(("a", "b"), ("y", "x"), {}, kinds) == {"a": "x", "b": "y"}
+    assert counterparts(("a", "b"), ("x", "z"), {}, kinds) is None
+    assert counterparts(("a", "z"), ("x", "z"), {}, kinds) == {"a": "x", "z": "z"}
+    assert counterparts(("a", "z"), ("x",), {}, kinds) is None
+    assert counterparts(("a:2",), ("x",), {}, kinds) is None
+    assert counterparts(("a", "memo"), ("x", "note"), {}, kinds) == {"a": "x", "memo": "note"}
+
+
 def test_what_is_new_stands_for_nothing() -> None:
     assert counterparts(("b", "a"), ("a",), {}, {}) == {"a": "a"}
     assert counterparts(("a", "c:3", "d:3"), ("a",), {}, {}) == {"a": "a"}
