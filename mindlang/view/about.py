@@ -8,6 +8,7 @@ from mindrun.graph.graph import Graph, Skill, Task
 from mindrun.graph.named_readings import reading_names, servo_reading
 from mindrun.graph.recording_header import About, RecordedWorld
 from mindrun.kinds.registry import names
+from mindrun.robot.hand import hand_on
 from mindrun.sim.task_rows import opened_boxes, things_of
 
 from mindlang.pictures.scene import half_sides, thing_colours
@@ -46,6 +47,7 @@ def about_data(
         "rewards": [shown(text) for text in rewards],
         "ends": [shown(text) for text in outcome.ends(task)] if task else [],
         "world": _world(graph, task, of.world, columns) if task and of.world and has_robot else None,
+        "by_hand": hand_data(of, graph),
         "curves": _curves(graph, skills, columns, rewards, has_robot),
         **_hierarchy(graph, of.master, skills, columns, texts),
     }
@@ -123,6 +125,12 @@ def order_data(graph: Graph) -> list[Data]:
         | {"low": kind.order.first, "high": kind.order.last}
         for node, kind in kinds.items()
     ]
+
+
+def hand_data(of: About, graph: Graph) -> list[Data]:
+    """The actuators and skills that a hand holds: the name of each, its neutral number, and what it does to wheels."""
+    held = hand_on(graph, of.master, of.by_hand).held
+    return [{"name": name, "neutral": each.neutral, "role": each.role} for name, each in held.items()]
 
 
 def _curves(

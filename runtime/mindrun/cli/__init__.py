@@ -7,7 +7,7 @@ from pkgutil import iter_modules
 from textwrap import fill
 
 from mindrun import VERSION
-from mindrun.terminal.arguments import MAX_SEED, new_file, parser, real, whole
+from mindrun.terminal.arguments import MAX_SEED, listed_names, new_file, parser, real, whole
 
 MAX_PORT = 65535
 MAX_TICK = 2**63 - 1  # tick
@@ -20,6 +20,7 @@ DRIVING_EXAMPLES = """examples:
   mindrun ball.bundle --arm --view                 seen in a browser meanwhile
   mindrun ball.bundle --arm --view --break day.break   a page that pauses there
   mindrun ball.bundle --dry --arm                  in a simulated world
+  mindrun ball.bundle --arm --drive left_wheel,right_wheel   by hand, with keys
   mindrun fetch.bundle --arm --order wanted=3      and what is typed meanwhile
   mindrun ball.bundle --describe                   what it holds
   mindrun collect.bundle --json                    the same as JSON
@@ -58,6 +59,13 @@ def driving_parser() -> ArgumentParser:
     )
     robot.add_argument(
         "--break", dest="breaks", type=Path, metavar="FILE", help="pause that page where a line of FILE.break says"
+    )
+    robot.add_argument(
+        "--drive",
+        type=listed_names,
+        default=(),
+        metavar="NAME,NAME",
+        help="drive these actuators, or skills' influence, by hand",
     )
     robot.add_argument(
         "--ticks", type=whole(0, MAX_TICK), default=0, metavar="N", help="end after so many ticks (default: never)"
