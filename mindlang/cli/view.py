@@ -72,7 +72,7 @@ def command(
     open it again. With --export it is one file, which opens from a disk without a server. Runs the Python code of
     procedures.
 
-    With --drive a person drives in real time, by keys or a gamepad. Skills that were not taught send 0.5 then.
+    With --drive a person drives in real time, by keys or a gamepad. Skills that were not taught send 0 then.
     """
     output = ViewOutput(**said)
     if output.export:

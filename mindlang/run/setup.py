@@ -94,12 +94,12 @@ def ready_to_act(file: str, compiled: Compiled, master: str | None = None) -> Re
 
 
 def with_zero_weights(ready: ReadyMind) -> ReadyMind:
-    """The mind with weights of 0 for each skill that has none that fit, which then sends 0.5 whatever it reads."""
+    """The mind with weights of 0 for each skill that has none that fit, which then sends 0 whatever it reads."""
     graph, untaught = ready.policy.graph, untaught_skills(ready)
     if not untaught:
         return ready
     zeros = {skill.name: np.zeros(genes(skill), np.float32) for skill in graph.skills if skill.name in untaught}
-    said = f"{listed(untaught, 'and')} {'was' if len(untaught) == 1 else 'were'} not taught, and sends 0.5"
+    said = f"not taught, and so sending 0 whatever is read: {listed(untaught, 'and')}"
     return ReadyMind(Policy(graph, {**ready.policy.weights, **zeros}), (), (*ready.notes, said))
 
 
