@@ -10,7 +10,7 @@ Examples:
   mindc view day.rec ball.bundle --break day.break  where it had to stop, say
   mindc view robot.local:day.rec ball.bundle --follow  through ssh
   mindc view runs/                         what is being learnt, and champions
-  mindc view collect.mind --task Avoid --drive left_wheel,right_wheel --record drive.rec
+  mindc view car.mind --drive left_wheel,right_wheel --record drive.rec
   mindc view collect.mind --no-interruption --port 8123 --no-browser
   mindc view collect.mind --task Collect --export run.html
 """
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from mindlang.view.viewed import Viewed
     from mindlang.view.viewed_recording import Watching
 
+Names = tuple[str, ...] | None
 MAX_PORT = 65535
 
 
@@ -53,14 +54,7 @@ MAX_PORT = 65535
 @options.written("--export", "PATH.html", "Write the page with the run in it, and end.")
 @options.quiet_flag("Print nothing but the address and errors.")
 def command(
-    file: str,
-    bundle: str | None,
-    chosen: RunChoice,
-    breaks: Path | None,
-    follow: bool,
-    drive: tuple[str, ...] | None,
-    record: Path | None,
-    **said: Any,
+    file: str, bundle: str | None, chosen: RunChoice, breaks: Path | None, follow: bool, drive: Names, **said: Any
 ) -> None:
     """See a run of FILE, or a robot's day, in a browser.
 
@@ -78,14 +72,10 @@ def command(
     if output.export:
         refuse_ineffective("of a page that is served, not of --export", "port", "opens_browser")
         terminal.refuse_unwritable(output.export, ".html")
-    if not drive:
-        refuse_ineffective("of what is driven by hand, with --drive", "record")
-    elif bundle is not None or Path(file).is_dir() or file.endswith(".rec"):
-        raise click.UsageError("--drive is for a run of a .mind file; a robot is driven by mindrun NAME.bundle --drive")
-    else:
-        refuse_ineffective("of what is seen alone, not of --drive", "breaks", "export", "interrupt", "follow")
-        _drive(file, chosen, drive, record, output)
+    if drive:
+        _drive(file, bundle, chosen, drive, output)
         return
+    refuse_ineffective("of what is driven by hand, with --drive", "record")
     if follow and bundle is None:
         raise click.UsageError("--follow is for a recording and its bundle: mindc view day.rec NAME.bundle --follow")
     if bundle is not None and (follow or not Path(file).is_dir()):
@@ -114,23 +104,27 @@ def run_view(file: str, chosen: RunChoice, breaks: Path | None) -> "Viewed":
     return ViewedRun(setup, rollout, seed, _texts(compiled), breakpoints).begun()
 
 
-def _drive(file: str, chosen: RunChoice, names: tuple[str, ...], record: Path | None, output: "ViewOutput") -> None:
+def _drive(file: str, bundle: str | None, chosen: RunChoice, names: tuple[str, ...], output: "ViewOutput") -> None:
     """Show runs that a hand drives, until Ctrl-C."""
+    from time import monotonic, sleep
+
     from mindrun.robot.hand import hand_on
 
     from mindlang.cli._session import RunSession, ensure_compiled, refusing_setups
     from mindlang.run.setup import set_up
     from mindlang.view.driven_run import DrivenRuns
 
-    if record:
-        terminal.refuse_unwritable(record, ".rec")
+    if bundle is not None or Path(file).is_dir() or file.endswith(".rec"):
+        raise click.UsageError("--drive is for a run of a .mind file; a robot is driven by mindrun NAME.bundle --drive")
+    refuse_ineffective("of what is seen alone, not of --drive", "breaks", "export", "interrupt", "follow")
+    terminal.refuse_unwritable(output.record, ".rec")
     compiled, session = terminal.load_compiled(file), RunSession()
     with refusing_setups(), terminal.procedures_talk():
         setup = set_up(file, compiled, chosen.task, chosen.master, untaught=True)
         hand = hand_on(setup.ready.policy.graph, setup.master, names)
         ensure_compiled(setup.rollout(), session.say)
         session.note(*filter(None, (*setup.ready.notes, setup.note)))
-        runs = DrivenRuns(setup, hand, _texts(compiled), record, session.say)
+        runs = DrivenRuns(setup, hand, _texts(compiled), monotonic, sleep, output.record, session.say)
         viewed = runs.begun(chosen.seed)
     with closing(runs):
         output.show(viewed)
@@ -185,11 +179,15 @@ def _show_recording(file: str, bundle: Path, follow: bool, breaks: Path | None, 
 
 @dataclass(frozen=True, slots=True)
 class ViewOutput:
-    """The output of `mindc view`: the file `export`, or a page served at a `port`, None for any that is free."""
+    """The output of `mindc view`: the file `export`, or a page served at a `port`, None for any that is free.
+
+    `record` is for what is driven by hand.
+    """
 
     port: int | None
     opens_browser: bool
     export: Path | None
+    record: Path | None = None
 
     def show(self, viewed: "Viewed", learning: "Learning | None" = None) -> None:
         """Write the file, or serve until Ctrl-C."""

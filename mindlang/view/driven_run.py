@@ -6,7 +6,6 @@ from dataclasses import replace
 from hashlib import sha256
 from itertools import chain, count
 from pathlib import Path
-from time import monotonic, sleep
 from typing import Any
 
 import numpy as np
@@ -88,10 +87,10 @@ class DrivenRuns:
         setup: RunSetup,
         hand: Hand,
         texts: Texts,
+        clock: Callable[[], float],
+        sleep: Callable[[float], None],
         record: Path | None = None,
         tell: Callable[[str], None] = lambda sentence: None,
-        clock: Callable[[], float] = monotonic,
-        sleep: Callable[[float], None] = sleep,
     ) -> None:
         self._setup, self._hand, self._texts, self._record, self._tell = setup, hand, texts, record, tell
         self._clock, self._sleep = clock, sleep

@@ -1,6 +1,7 @@
 """Runs that a hand drives: what is said counts in the next tick, is recorded, and is the same when replayed."""
 
 from pathlib import Path
+from time import monotonic, sleep
 
 import numpy as np
 import pytest
@@ -46,7 +47,7 @@ class Driver:
         clock = Clock()
         self.hand = hand_on(self.setup.ready.policy.graph, self.setup.master, held, clock)
         self.told: list[str] = []
-        self.runs = DrivenRuns(self.setup, self.hand, {}, record, self.told.append, clock, clock.sleep)
+        self.runs = DrivenRuns(self.setup, self.hand, {}, clock, clock.sleep, record, self.told.append)
 
 
 @pytest.mark.parametrize(
@@ -146,7 +147,7 @@ def test_a_world_stands_still_where_the_hand_has_let_go(path: Path, tmp_path: Pa
 def test_the_first_page_drives_and_asks_for_another_layout(path: Path, tmp_path: Path) -> None:
     setup = prepared(path, "Chase")
     hand = hand_on(setup.ready.policy.graph, setup.master, ("left_wheel", "right_wheel"))
-    runs = DrivenRuns(setup, hand, {})
+    runs = DrivenRuns(setup, hand, {}, monotonic, sleep)
     with served(runs.begun(3)) as view, view.viewer() as first, view.viewer() as second:
         about = first.hear("about")
         assert (about["seed"], about["source"], second.hear("about")["drive"]) == ("3", "driven", [])
@@ -171,7 +172,7 @@ def test_a_skill_that_was_not_taught_can_be_shown(tmp_path: Path) -> None:
     setup = set_up(str(path), load(path), "Go", None, untaught=True)
     clock = Clock()
     hand = hand_on(setup.ready.policy.graph, "Go", ("left", "right"), clock)
-    runs = DrivenRuns(setup, hand, {}, tmp_path / "go.rec", clock=clock, sleep=clock.sleep)
+    runs = DrivenRuns(setup, hand, {}, clock, clock.sleep, tmp_path / "go.rec")
     viewed = runs.begun(1)
     for name in hand.names:
         hand.say(name, 1.0)

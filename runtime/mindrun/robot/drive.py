@@ -143,9 +143,8 @@ def drive(
 ) -> Loop:  # fmt: skip
     """Run a mind on a robot until a signal comes or the ticks are over; the loop as it ended.
 
-    `tell` gets sentences for people; the guardian inherits the descriptors `held`; `watch` sees the loop after each
-    tick, and says whether it goes on; `world` is that of a dry run; the `hand` drives what it holds. Where MindError is
-    raised all is at neutral, too.
+    `tell` gets sentences; the guardian inherits the descriptors `held`; `watch` sees the loop after each tick, and says
+    whether it goes on; `world` is that of a dry run. Where MindError is raised all is at neutral, too.
     """
     graph, master = bundle.graph, options.master or bundle.graph.master
     engine = ChangedEngine(bundle.policy, bundle.procedures, options.master)
