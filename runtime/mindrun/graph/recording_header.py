@@ -91,7 +91,11 @@ class RecordedWorld:
 
 @dataclass(frozen=True, slots=True)
 class About:
-    """The header of a recording: the SHA-256 of its bundle, the master, the names of its columns, its world if any."""
+    """The header of a recording: the SHA-256 of its bundle, the master, the names of its columns, its world if any.
+
+    The actuators and skills that are `by_hand` were commanded, and given influence, by a person in all ticks in which
+    the robot was not stopped: `sent` has those commands, beside the mind's own in `commands`.
+    """
 
     bundle: str
     master: str
@@ -101,6 +105,7 @@ class About:
     skills: tuple[str, ...]
     readings: Annotated[int, COLUMNS]
     world: RecordedWorld | None = None
+    by_hand: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, graph: Graph, bundle: str, master: str, sensors: Sequence[str]) -> Self:
@@ -117,9 +122,10 @@ class About:
                 "take the bundle that was running",
             )
         worlds = [(task.name, world_row_of(task)) for task in graph.tasks]
-        expected = replace(About.of(graph, bundle, self.master, self.sensors), world=self.world)
+        expected = replace(About.of(graph, bundle, self.master, self.sensors), world=self.world, by_hand=self.by_hand)
         if (
             self != expected
+            or not {*self.by_hand} <= {*self.actuators, *self.skills}
             or self.master not in self.skills
             or not set(self.sensors) <= physical(graph).keys()
             or (self.world and (self.world.task, self.world.row) not in worlds)
@@ -138,7 +144,7 @@ class About:
         ])  # fmt: skip
 
 
-NAME_LISTS = ("sensors", "actuators", "skills")
+NAME_LISTS = ("sensors", "actuators", "skills", "by_hand")
 
 
 def line_of(about: About) -> bytes:
@@ -146,6 +152,8 @@ def line_of(about: About) -> bytes:
     said = {"format": FORMAT, **encode(about)}
     if about.world is None:
         del said["world"]
+    if not about.by_hand:
+        del said["by_hand"]
     line = _sealed(json.dumps(said, allow_nan=False).encode()[:-1] + CHECKSUM_FIELD)
     if len(line) > MAX_HEADER_BYTES:
         raise RecordingError("this world has too many things and obstacles to be recorded")
@@ -160,7 +168,7 @@ def about_of_line(line: bytes, path: Path) -> About:
             raise ValueError(_foreign(plain))
         if line != _sealed(line):
             raise RecordingError(f"{path} is damaged in its first line")
-        found = _typed({each.name: plain.get(each.name) for each in fields(About)})
+        found = _typed({"by_hand": []} | {each.name: plain[each.name] for each in fields(About) if each.name in plain})
         return replace(found, world=_world(plain["world"])) if "world" in plain else found
     except ValueError as error:
         raise RecordingError(f"{path} is no recording of this mindrun: {error}") from error
