@@ -1,7 +1,10 @@
 """Curricula: who is taught what, under which master, for how long, and with whose weights a lesson begins."""
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from heapq import heappop, heappush
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, cast
 
 from mindrun.graph.graph import Need
@@ -113,21 +116,25 @@ class _LessonContext:
 
         Those that teach one skill stay in order. Of a circle the first stands where it is.
         """
-        left = list(lessons)
-        taught = {lesson.fact: self._taught(lesson) for lesson in left}
-        acting = {lesson.fact: self._owners({*self._below(lesson.master), lesson.starts_from}) for lesson in left}
-        needs = {fact: of - taught[fact] for fact, of in acting.items()}
-        while left:
-            free = (
-                lesson
-                for place, lesson in enumerate(left)
-                if not any(needs[lesson.fact] & taught[other.fact] for other in left)
-                and not any(taught[lesson.fact] & taught[other.fact] for other in left[:place])
-            )
-            following = next(free, left[0])
-            left.remove(following)
-            needs = {fact: of - taught[following.fact] for fact, of in needs.items()}
-            yield following
+        teachers = defaultdict[str, list[int]](list)
+        for place, lesson in enumerate(lessons):
+            for skill in self._taught(lesson):
+                teachers[skill].append(place)
+        waits = DiGraph(pair for places in teachers.values() for pair in pairwise(places))
+        waits.add_nodes_from(range(len(lessons)))
+        for place, lesson in enumerate(lessons):
+            acting = self._owners({*self._below(lesson.master), lesson.starts_from})
+            first = {teachers[skill][0] for skill in acting & teachers.keys()}
+            waits.add_edges_from((earlier, place) for earlier in first - {place})
+        free = sorted(place for place, earlier in waits.in_degree if not earlier)
+        while waits:
+            place = heappop(free) if free else min(waits)
+            later = list(waits[place])
+            waits.remove_node(place)
+            for each in later:
+                if not waits.in_degree(each):
+                    heappush(free, each)
+            yield lessons[place]
 
     def _taught(self, lesson: model.Lesson) -> set[str]:
         names = self._below(lesson.skill) if lesson.with_subskills else {lesson.skill}
