@@ -82,7 +82,7 @@ def command(
     terminal.print_result(data, lambda: found_summary(data))
     if hard and data["worst"]:
         names = {"seconds": "for", **{name: name for name in ("runs", "below", "fewer", "seed")}}
-        options_said = [f"--{names[name]}={value:g}" for name, value in said.items() if value is not None]
+        options_said = [f"--{names[name]}={value}" for name, value in said.items() if value is not None]
         made = hard_text(found, command_line("mindc", "falsify", *words, *options_said))
         terminal.write_file(hard, made.encode())
         session.say(f"{hard}: a seed for each of {made.count(chr(10)) - made.count('#'):,} layouts")

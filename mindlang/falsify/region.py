@@ -1,7 +1,8 @@
 """The region of a task's numbers in which most runs fail: a box that is peeled out of all that can be drawn.
 
 Bump hunting (Friedman and Fisher, 1999): a tenth of the runs is cut off at one end of one number, where that leaves the
-greatest share of failures, again and again.
+greatest share of failures, again and again. Of all these boxes the best is the one with most failures beyond twice as
+many as anywhere.
 """
 
 from collections.abc import Iterator
@@ -10,11 +11,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mindlang.falsify.failures import Mask, Rate
+from mindlang.falsify.failures import Mask
 
 PEELED_SHARE = 0.1  # of the runs in a box, by which it shrinks
 MIN_FAILURES = 5  # in a box that is told
-KEPT_SHARE = 0.95  # of a box's lower bound, with which a bound more is not worth being told
+KEPT_SHARE = 0.95  # of what makes a box the best, with which a bound more is not worth being told
+TIMES_WORSE = 2.0  # as often as anywhere a region fails
 
 Doubles = NDArray[np.float64]
 
@@ -37,35 +39,49 @@ class Box:
         return replace(self, **{side: ends})
 
 
-def worst_box(whole: Box, drawn: Doubles, failed: Mask) -> Box | None:
-    """The box with the greatest lower bound of its failures' share; None where no smaller one has a greater than all.
+@dataclass(frozen=True, slots=True)
+class Tried:
+    """Runs by their numbers [runs, numbers], whether they `failed` [runs], and their weights [runs].
 
-    `whole` is all that numbers [runs, numbers] can be. A bound that adds little is left out.
+    By its weight a run stands for so many of any: a search has made more where more fail.
     """
-    box, best = whole, whole
-    while (rate := _rate(box, drawn, failed)).failures >= MIN_FAILURES:
-        if rate.low > _rate(best, drawn, failed).low:
+
+    drawn: Doubles
+    failed: Mask
+    weights: Doubles
+
+    def share(self, box: Box) -> float:
+        """The share of failures in a box."""
+        held = box.holds(self.drawn)
+        return float(self.weights[held & self.failed].sum() / max(self.weights[held].sum(), np.finfo(float).tiny))
+
+    def failures(self, box: Box) -> int:
+        return int((box.holds(self.drawn) & self.failed).sum())
+
+    def excess(self, box: Box, usual: float) -> float:
+        """The failures in a box, as a share of all runs, beyond TIMES_WORSE the usual share."""
+        return float(self.weights[box.holds(self.drawn)].sum()) * (self.share(box) - TIMES_WORSE * usual)
+
+
+def worst_box(whole: Box, tried: Tried) -> Box | None:
+    """The box with the most failures beyond twice as many as usual; None where no box has any.
+
+    `whole` is all that numbers can be. A bound that adds little is left out.
+    """
+    usual, box, best = tried.share(whole), whole, whole
+    while box and tried.failures(box) >= MIN_FAILURES:
+        if tried.excess(box, usual) > tried.excess(best, usual):
             best = box
-        box = max(_peeled(box, drawn), key=lambda each: _order(_rate(each, drawn, failed)), default=best)
-        if box is best:
-            break
-    least = KEPT_SHARE * _rate(best, drawn, failed).low
+        box = max(_peeled(box, tried.drawn), key=tried.share, default=None)
+    least = KEPT_SHARE * tried.excess(best, usual)
+    if least <= 0:
+        return None
     for number in range(len(whole.low)):
         for side in ("low", "high"):
             wider = best.cut(number, side, getattr(whole, side)[number])
-            if _rate(wider, drawn, failed).low >= least:
+            if tried.excess(wider, usual) >= least:
                 best = wider
-    is_smaller = (best.low > whole.low).any() or (best.high < whole.high).any()
-    return best if is_smaller and _rate(best, drawn, failed).low > _rate(whole, drawn, failed).low else None
-
-
-def _rate(box: Box, drawn: Doubles, failed: Mask) -> Rate:
-    held = box.holds(drawn)
-    return Rate.of(int((held & failed).sum()), int(held.sum()))
-
-
-def _order(rate: Rate) -> tuple[float, int]:
-    return rate.share, rate.runs
+    return best
 
 
 def _peeled(box: Box, drawn: Doubles) -> Iterator[Box]:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mindlang.falsify.failures import Criterion, Mask, Rate
 from mindlang.falsify.numbers import Number, drawn_at
-from mindlang.falsify.region import Box, Doubles, worst_box
+from mindlang.falsify.region import TIMES_WORSE, Box, Doubles, Tried, worst_box
 from mindlang.run.setup import layouts, run_all
 
 ROUNDS = 20
@@ -23,6 +23,7 @@ ELITE_SHARE = 0.1  # of a round, about which the runs of the next are chosen
 MIN_SPREAD_SHARE = 0.02  # of what a number can be: no narrower are runs chosen
 ROUND_BOUNDS = 50, 1000  # runs of a round, else a twentieth of those on any layouts
 CHECKED_BOUNDS = 50, 1000  # runs that try a region, else a tenth of those on any layouts
+NO_SPREAD = 1e-12  # of a number that is the same in every run
 POOL_RUNS = 100_000  # of which the beginning is computed, to choose from
 SLICE_RUNS = 256  # between two looks at the clock
 UNIFORM_SHARE, SEARCHED_SHARE = 0.5, 0.9  # of the seconds, after which a stage ends
@@ -106,10 +107,12 @@ class Search:
         if not self.numbers or self.rollout.is_one_world:
             return Found(criterion, self.numbers, uniform, (), (), None)
         pool = _Pool(self, len(uniform.places))
-        rounds = self._rounds(criterion, uniform, pool)
-        done = uniform.and_those(rounds)
-        low, high = (np.array([getattr(each, side) for each in self.numbers]) for side in ("low", "high"))
-        box = worst_box(Box(low, high), done.drawn, criterion.failed(done.scores))
+        aims, rounds = self._rounds(criterion, uniform, pool)
+        done, sizes = uniform.and_those(rounds), [len(each.places) for each in rounds]
+        shares = [aim.share(done.drawn) / aim.share(pool.drawn).mean() for aim in aims]
+        likely = len(uniform.places) + sum(size * each for size, each in zip(sizes, shares, strict=True))
+        tried = Tried(done.drawn, criterion.failed(done.scores), 1 / (likely * np.ones(len(done.places))))
+        box = worst_box(self._whole, tried)
         found = Found(criterion, self.numbers, uniform, rounds, (), None)
         return self._checked(found, box, pool) if box else found
 
@@ -134,29 +137,49 @@ class Search:
             made.append(self.run(*self.layouts(len(made) * SLICE_RUNS, SLICE_RUNS)))
         return made[0].and_those(made[1:])
 
-    def _rounds(self, criterion: Criterion, uniform: Runs, pool: "_Pool") -> list[Runs]:
-        """The rounds of the cross-entropy method, each about the worst of the one before, the first about any."""
-        made, low, high = [uniform], *(np.array([getattr(n, side) for n in self.numbers]) for side in ("low", "high"))
-        middle, spread = (low + high) / 2, high - low
+    @property
+    def _whole(self) -> Box:
+        """All that the numbers can be."""
+        return Box(*(np.array([getattr(each, side) for each in self.numbers], float) for side in ("low", "high")))
+
+    def _rounds(self, criterion: Criterion, uniform: Runs, pool: "_Pool") -> tuple[list["_Aim"], list[Runs]]:
+        """The rounds of the cross-entropy method, each about the worst of the one before, with what each aimed at."""
+        whole, aims, made = self._whole, list[_Aim](), [uniform]
+        aim = _Aim((whole.low + whole.high) / 2, np.full(len(whole.low), np.inf))
         for number in range(ROUNDS):
             if (elite := _elite(criterion, made[-1])) is not None:
-                middle = elite.mean(axis=0)
-                spread = np.maximum(elite.std(axis=0), MIN_SPREAD_SHARE * (high - low))
-            off = np.divide(pool.drawn - middle, spread, out=np.zeros_like(pool.drawn), where=spread > 0)
-            chosen = pool.chosen(-0.5 * (off**2).sum(axis=1), round_runs(len(uniform.places)), number)
+                least = MIN_SPREAD_SHARE * (whole.high - whole.low)
+                aim = _Aim(elite.mean(axis=0), np.maximum(elite.std(axis=0), np.maximum(least, NO_SPREAD)))
+            chosen = pool.chosen(aim.log_share(pool.drawn), round_runs(len(uniform.places)), number)
             if not len(chosen) or self.passed() > SEARCHED_SHARE:
                 break
+            aims.append(aim)
             made.append(pool.run(chosen))
-        return made[1:]
+        return aims, made[1:]
 
     def _checked(self, found: Found, box: Box, pool: "_Pool") -> Found:
         """The search with a region, if fresh runs in it fail at least twice as often as on any layouts."""
         held = box.holds(pool.drawn)
         fresh = pool.run(np.flatnonzero(held & pool.is_free)[: checked_runs(len(found.uniform.places))])
         rate = Rate.of(int(found.criterion.failed(fresh.scores).sum()), len(fresh.places))
-        is_worse = rate.failures > 0 and rate.share >= 2 * found.rate.share
+        is_worse = rate.failures > 0 and rate.share >= TIMES_WORSE * found.rate.share
         region = Region(box, rate, float(held.mean())) if is_worse else None
         return replace(found, checked=[fresh], region=region)
+
+
+@dataclass(frozen=True, slots=True)
+class _Aim:
+    """A normal distribution of each number, without what would make it one: its `middle` and its `spread` [numbers]."""
+
+    middle: Doubles
+    spread: Doubles
+
+    def log_share(self, drawn: Doubles) -> Doubles:
+        """The logarithm [runs] of how likely runs with these numbers [runs, numbers] are chosen, 0 in the middle."""
+        return np.asarray(-0.5 * (((drawn - self.middle) / self.spread) ** 2).sum(axis=1))
+
+    def share(self, drawn: Doubles) -> Doubles:
+        return np.exp(self.log_share(drawn))
 
 
 class _Pool:
