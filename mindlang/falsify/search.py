@@ -114,7 +114,7 @@ class Search:
         tried = Tried(done.drawn, criterion.failed(done.scores), 1 / (likely * np.ones(len(done.places))))
         box = worst_box(self._whole, tried)
         found = Found(criterion, self.numbers, uniform, rounds, (), None)
-        return self._checked(found, box, pool) if box else found
+        return self._checked(found, box) if box else found
 
     def run(self, places: NDArray[np.int64], seeds: NDArray[np.uint64], drawn: Doubles | None = None) -> Runs:
         """The runs of these seeds."""
@@ -157,10 +157,11 @@ class Search:
             made.append(pool.run(chosen))
         return aims, made[1:]
 
-    def _checked(self, found: Found, box: Box, pool: "_Pool") -> Found:
+    def _checked(self, found: Found, box: Box) -> Found:
         """The search with a region, if fresh runs in it fail at least twice as often as on any layouts."""
+        pool = _Pool(self, len(found.uniform.places) + POOL_RUNS)
         held = box.holds(pool.drawn)
-        fresh = pool.run(np.flatnonzero(held & pool.is_free)[: checked_runs(len(found.uniform.places))])
+        fresh = pool.run(np.flatnonzero(held)[: checked_runs(len(found.uniform.places))])
         rate = Rate.of(int(found.criterion.failed(fresh.scores).sum()), len(fresh.places))
         is_worse = rate.failures > 0 and rate.share >= TIMES_WORSE * found.rate.share
         region = Region(box, rate, float(held.mean())) if is_worse else None
