@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 DEFAULT_RUNS = 2000
 MAX_SECONDS = 7 * 24 * 3600
+SECONDS = options.NumberOption(1, MAX_SECONDS)
 NUMBER = options.NumberOption(-1e9, 1e9)
 
 
@@ -36,9 +37,7 @@ NUMBER = options.NumberOption(-1e9, 1e9)
 @click.argument("file")
 @options.OF_TASK
 @click.option("--runs", type=options.RUNS, help=f"Layouts to run the task on. Default: {DEFAULT_RUNS:,}.")
-@click.option(
-    "--for", "seconds", type=options.NumberOption(1, MAX_SECONDS), metavar="SECONDS", help="Instead of --runs."
-)
+@click.option("--for", "seconds", type=SECONDS, metavar="SECONDS", help="Search so long, in the place of --runs.")
 @click.option("--below", type=NUMBER, metavar="SCORE", help="A run fails, too, that scores less.")
 @click.option("--fewer", type=NUMBER, metavar="COUNT", help="A run fails, too, that counts fewer.")
 @click.option("--seed", type=options.SEED, default=1, show_default=True, help="Draws the layouts.")

@@ -48,7 +48,9 @@ def lessons(
 ) -> Iterator[model.Lesson]:
     """Every lesson of every curriculum that is well said; those that others wait for come first."""
     known = {skill.name: skill for skill in skills}, influences, {task.name: task for task in tasks}
-    context = _LessonContext(names, *known, {each.name: type(each.kind).__name__ for each in sensors}, widths, root, findings)
+    context = _LessonContext(
+        names, *known, {each.name: type(each.kind).__name__ for each in sensors}, widths, root, findings
+    )
     for name, declaration in names.declarations("curriculum"):
         refuse_facts(declaration, ("teaches",), findings)
         phrase = declaration.header.phrase
