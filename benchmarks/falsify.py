@@ -29,8 +29,8 @@ from mindlang.run.setup import layouts, run_all, set_up
 LINE = Path(__file__).parents[1] / "examples" / "line"
 ASKED_SHARE = 0.1
 CORNER_RUNS, USUAL_RUNS = 50, 100_000
-GENERATIONS, BENCHED_RUNS = 20, 2000
-HERE, THERE = 1, 1001  # seeds of the layouts that a lesson has, and of those on which it is tried
+TAUGHT_GENERATIONS, BENCHED_RUNS = 20, 2000
+TAUGHT_SEED, TRIED_SEED = 1, 1001  # seeds of the layouts that a lesson has, and of those on which it is tried
 
 HEAD = "tick 1/60 s\nmaster Go\n"
 PLANTED = f"""{HEAD}\
@@ -117,15 +117,15 @@ def hard(folder: Path, seeds: int, workers: int) -> list[str]:
     """Sentences: how much more often who was taught on hard layouts succeeds than who was not, by training."""
     copytree(LINE, folder, ignore=ignore_patterns("runs"), dirs_exist_ok=True)
     mind = folder / "line.mind"
-    here, there = (search(mind, seed, workers, BENCHED_RUNS)[0] for seed in (HERE, THERE))
+    here, there = (search(mind, seed, workers, BENCHED_RUNS)[0] for seed in (TAUGHT_SEED, TRIED_SEED))
     (folder / "hard.seeds").write_text(hard_text(here, "benchmarks/falsify.py"))
     failing = there.uniform.seeds[there.criterion.failed(there.uniform.scores)].tolist()
-    where = {"any layouts": layouts(THERE + 1, BENCHED_RUNS), "hard layouts": failing}
+    where = {"any layouts": layouts(TRIED_SEED + 1, BENCHED_RUNS), "hard layouts": failing}
     said, gained = [], {name: list[float]() for name in where}
     for seed in range(1, seeds + 1):
         came = {}
         for name, words in (("plain", ""), ("hard", HARD)):
-            (file := folder / f"{name}{seed}.mind").write_text(MORE.format(GENERATIONS, words))
+            (file := folder / f"{name}{seed}.mind").write_text(MORE.format(TAUGHT_GENERATIONS, words))
             said_so = "--seed", str(seed), "--workers", str(workers), "--runs", str(folder / "runs"), "--force", "-q"
             subprocess.run([*MINDC, "train", str(file), "Follow", *said_so], check=True)
             came[name] = {name: tried(file, on, workers) for name, on in where.items()}

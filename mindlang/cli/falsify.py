@@ -10,12 +10,14 @@ Examples:
 """
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import click
 from mindrun.processors import cores
+from mindrun.terminal.command_line import command_line
 
 from mindlang.cli import _options as options
 from mindlang.cli import _terminal as terminal
@@ -62,10 +64,8 @@ def command(
     Runs the Python code of the file's procedures. With --for what is found depends on how fast the machine is. Ends
     with 1 where a run has failed.
     """
-    from mindrun.terminal.command_line import command_line
-
     from mindlang.cli._session import RunSession
-    from mindlang.falsify.report import found_data, found_summary, hard_text
+    from mindlang.falsify.report import found_data, found_summary
 
     if said["seconds"] is not None:
         options.refuse_ineffective("left out with --for: the time says how many", "runs")
@@ -75,19 +75,29 @@ def command(
     setup, rollout = session.prepare(file, chosen, workers or cores(), said["runs"] or DEFAULT_RUNS)
     found = _searched(session, setup, rollout, **said)
     session.note(*setup.world_notes, *rollout.notes)
-    words = [Path(file), "--task", setup.task.name, *(["--master", master] if master else [])]
+    words: list[str | Path] = [Path(file), "--task", setup.task.name, *(["--master", master] if master else [])]
     data = {"task": setup.task.name, "master": setup.master, "of_seed": seed} | found_data(found, seed)
     data |= {"repeat": f"{command_line('mindc', 'run', *words)} --seed"}
     terminal.print_result(data, lambda: found_summary(data))
-    if hard and data["worst"]:
-        names = {"seconds": "for", **{name: name for name in ("runs", "below", "fewer", "seed")}}
-        options_said = [f"--{names[name]}={value}" for name, value in said.items() if value is not None]
-        made = hard_text(found, command_line("mindc", "falsify", *words, *options_said))
-        terminal.write_file(hard, made.encode())
-        session.say(f"{hard}: a seed for each of {made.count(chr(10)) - made.count('#'):,} layouts")
-    elif hard:
-        session.note(f"{hard} is not written: no run has failed")
+    if hard:
+        _write(session, hard, found, [*words, *_as_written(said)])
     sys.exit(terminal.FINDINGS if data["worst"] else terminal.OK)
+
+
+def _as_written(said: dict[str, Any]) -> list[str]:
+    """The options of a search as words of a command line."""
+    return [f"--{'for' if name == 'seconds' else name}={value}" for name, value in said.items() if value is not None]
+
+
+def _write(session: "RunSession", path: Path, found: "Found", words: Sequence[str | Path]) -> None:
+    """Write the layouts that failed, or say that there are none."""
+    from mindlang.falsify.report import hard_runs, hard_text
+
+    if count := len(hard_runs(found)):
+        terminal.write_file(path, hard_text(found, command_line("mindc", "falsify", *words)).encode())
+        session.say(f"{path}: a seed for each of {count:,} layouts")
+    else:
+        session.note(f"{path} is not written: no run has failed")
 
 
 @terminal.procedures_talk()
@@ -104,11 +114,11 @@ def _searched(
     """The search of so many runs, or of so many seconds, with a bar that says how much of it is left."""
     from mindlang.falsify.failures import Criterion
     from mindlang.falsify.numbers import numbers_of
-    from mindlang.falsify.search import ROUNDS, Search, checked_runs, round_runs
+    from mindlang.falsify.search import MAX_ROUNDS, Search, checked_runs, round_runs
 
     task, count, began = setup.task, runs or DEFAULT_RUNS, perf_counter()
     numbers = numbers_of(setup.ready.policy.graph, task) if rollout.simulates else []
-    more = ROUNDS * round_runs(count) + checked_runs(count) if numbers else 0
+    more = MAX_ROUNDS * round_runs(count) + checked_runs(count) if numbers else 0
     criterion, what = Criterion(task, below, fewer), f"{task.name} falsified"
     if seconds is None:
         with session.counting(what, count + more) as ran:

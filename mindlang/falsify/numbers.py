@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mindlang.run.setup import NO_GENOME
 
-DIGITS = 3  # of a value that is told
+SHOWN_DIGITS = 3  # of a value that is told
 BEGUN_LANES = 1024  # runs that are begun at once
 
 
@@ -40,7 +40,7 @@ class Number:
 
     def value(self, number: float) -> str:
         """A value with three digits, without its unit."""
-        return f"{float(f'{number / self.factor:.{DIGITS}g}'):g}"
+        return f"{float(f'{number / self.factor:.{SHOWN_DIGITS}g}'):g}"
 
 
 def numbers_of(graph: Graph, task: Task) -> list[Number]:

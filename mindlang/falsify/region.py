@@ -68,11 +68,11 @@ def worst_box(whole: Box, tried: Tried) -> Box | None:
 
     `whole` is all that numbers can be. A bound that adds little is left out.
     """
-    usual, box, best = tried.share(whole), whole, whole
-    while box and tried.failures(box) >= MIN_FAILURES:
+    usual, best, peeled = tried.share(whole), whole, [whole]
+    while peeled and tried.failures(box := max(peeled, key=tried.share)) >= MIN_FAILURES:
         if tried.excess(box, usual) > tried.excess(best, usual):
             best = box
-        box = max(_peeled(box, tried.drawn), key=tried.share, default=None)
+        peeled = [*_peeled(box, tried)]
     least = KEPT_SHARE * tried.excess(best, usual)
     if least <= 0:
         return None
@@ -84,11 +84,14 @@ def worst_box(whole: Box, tried: Tried) -> Box | None:
     return best
 
 
-def _peeled(box: Box, drawn: Doubles) -> Iterator[Box]:
-    """The boxes that are left where some of the runs, at least one, are cut off at one end of one number."""
-    held = drawn[box.holds(drawn)]
-    for number, values in enumerate(held.T):
-        least, most = np.quantile(values, [PEELED_SHARE, 1 - PEELED_SHARE])
+def _peeled(box: Box, tried: Tried) -> Iterator[Box]:
+    """The boxes that are left where runs of some weight, at least one, are cut off at one end of one number."""
+    held = box.holds(tried.drawn)
+    for number, values in enumerate(tried.drawn[held].T):
+        order = np.argsort(values, kind="stable")
+        below_each = np.cumsum(tried.weights[held][order])
+        ends = np.array([PEELED_SHARE, 1 - PEELED_SHARE]) * below_each[-1]
+        least, most = values[order][np.searchsorted(below_each, ends).clip(max=len(values) - 1)]
         if len(above := values[values > least]):
             yield box.cut(number, "low", float(above.min()))
         if len(below := values[values < most]):

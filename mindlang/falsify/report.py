@@ -13,7 +13,7 @@ from mindlang.falsify.region import Box
 from mindlang.falsify.search import Found
 from mindlang.number_format import finite, score
 from mindlang.run.outcome import TIME, ended_by
-from mindlang.run.summary import aligned
+from mindlang.run.summary import Row, aligned
 
 WORST_RUNS = 10  # that are told
 MAX_HARD_SEEDS = 1000  # of a file
@@ -92,7 +92,7 @@ def found_summary(data: dict[str, Any]) -> RenderableType:
     """The failures in numbers, the worst runs in a table, the region in words."""
     share = f"{data['failures']:,} of {data['runs']:,} runs, {_percent(data)}"
     more = f"{data['searched_failures']:,} of {data['searched']:,} where numbers are as in the worst"
-    facts = [
+    facts: list[Row] = [
         ("fails", f"a run that {data['fails']}"),
         ("failed", Text.assemble((share, "bold"))),
         *([("searched", more)] if data["searched"] else []),

@@ -18,7 +18,7 @@ from mindlang.falsify.numbers import Number, drawn_at
 from mindlang.falsify.region import TIMES_WORSE, Box, Doubles, Tried, worst_box
 from mindlang.run.setup import layouts, run_all
 
-ROUNDS = 20
+MAX_ROUNDS = 20
 ELITE_SHARE = 0.1  # of a round, about which the runs of the next are chosen
 MIN_SPREAD_SHARE = 0.02  # of what a number can be: no narrower are runs chosen
 ROUND_BOUNDS = 50, 1000  # runs of a round, else a twentieth of those on any layouts
@@ -146,7 +146,7 @@ class Search:
         """The rounds of the cross-entropy method, each about the worst of the one before, with what each aimed at."""
         whole, aims, made = self._whole, list[_Aim](), [uniform]
         aim = _Aim((whole.low + whole.high) / 2, np.full(len(whole.low), np.inf))
-        for number in range(ROUNDS):
+        for number in range(MAX_ROUNDS):
             if (elite := _elite(criterion, made[-1])) is not None:
                 least = MIN_SPREAD_SHARE * (whole.high - whole.low)
                 aim = _Aim(elite.mean(axis=0), np.maximum(elite.std(axis=0), np.maximum(least, NO_SPREAD)))
@@ -207,7 +207,7 @@ class _Pool:
 
 def round_runs(uniform: int) -> int:
     """The runs of a round after so many on any layouts."""
-    return min(max(uniform // ROUNDS, ROUND_BOUNDS[0]), ROUND_BOUNDS[1])
+    return min(max(uniform // MAX_ROUNDS, ROUND_BOUNDS[0]), ROUND_BOUNDS[1])
 
 
 def checked_runs(uniform: int) -> int:
