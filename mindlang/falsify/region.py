@@ -1,8 +1,8 @@
 """The region of a task's numbers in which most runs fail: a box that is peeled out of all that can be drawn.
 
 Bump hunting (Friedman and Fisher, 1999): a tenth of the runs is cut off at one end of one number, where that leaves the
-greatest share of failures, again and again. Of all these boxes the best is the one with most failures beyond twice as
-many as anywhere.
+greatest share of failures, again and again. Of all boxes that fail twice as often as usual the best is the one that is
+most like the failures themselves: it holds many of them, and little else (Dice, 1945).
 """
 
 from collections.abc import Iterator
@@ -58,28 +58,31 @@ class Tried:
     def failures(self, box: Box) -> int:
         return int((box.holds(self.drawn) & self.failed).sum())
 
-    def excess(self, box: Box, usual: float) -> float:
-        """The failures in a box, as a share of all runs, beyond TIMES_WORSE the usual share."""
-        return float(self.weights[box.holds(self.drawn)].sum()) * (self.share(box) - TIMES_WORSE * usual)
+    def likeness(self, box: Box) -> float:
+        """How alike the runs in a box and those that failed are, 1 if they are the same; 0 where too few fail there."""
+        held, failures = box.holds(self.drawn), float(self.weights[self.failed].sum())
+        if self.share(box) < TIMES_WORSE * failures / self.weights.sum():
+            return 0.0
+        return float(2 * self.weights[held & self.failed].sum() / (self.weights[held].sum() + failures))
 
 
 def worst_box(whole: Box, tried: Tried) -> Box | None:
-    """The box with the most failures beyond twice as many as usual; None where no box has any.
+    """The box that is most like the failures; None where no box fails twice as often as usual.
 
     `whole` is all that numbers can be. A bound that adds little is left out.
     """
-    usual, best, peeled = tried.share(whole), whole, [whole]
+    best, peeled = whole, [whole]
     while peeled and tried.failures(box := max(peeled, key=tried.share)) >= MIN_FAILURES:
-        if tried.excess(box, usual) > tried.excess(best, usual):
+        if tried.likeness(box) > tried.likeness(best):
             best = box
         peeled = [*_peeled(box, tried)]
-    least = KEPT_SHARE * tried.excess(best, usual)
-    if least <= 0:
+    if best is whole:
         return None
+    least = KEPT_SHARE * tried.likeness(best)
     for number in range(len(whole.low)):
         for side in ("low", "high"):
             wider = best.cut(number, side, getattr(whole, side)[number])
-            if tried.excess(wider, usual) >= least:
+            if tried.likeness(wider) >= least:
                 best = wider
     return best
 
