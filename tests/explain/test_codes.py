@@ -42,7 +42,7 @@ NEEDED = {"no-tick", "no-master", "no-body"}  # in a table of what every mind ne
 # What no small mind shows: files that are not there or too many, locks and edits.
 FILES = {"unreadable", "use-too-deep", "too-many-mistakes", "faulty-procedure"}
 MAPS = {
-    *("not-a-file", "unreadable-map", "ragged-map", "map-too-large", "map-without-floor"),
+    *("not-a-file", "unreadable-map", "unreadable-layouts", "ragged-map", "map-too-large", "map-without-floor"),
     *("unknown-letter", "ambiguous-letter", "placed-twice"),
 }
 SETTINGS = {"unreadable-settings", "unknown-setting", "wrong-setting", "unknown-rule"}

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from heapq import heappop, heappush
 from itertools import pairwise
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from mindrun.graph.graph import Need
@@ -19,6 +20,7 @@ from mindlang.compiler.families import said
 from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.kinds import Scope, a_name, make_event, make_kind, once, overrides
+from mindlang.compiler.resolve.layouts import HARD, OF, hard_layouts
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Amount, Argument, Name, Needs, Phrase, Teaches, of_form
@@ -44,11 +46,14 @@ def lessons(
     tasks: tuple[model.Task, ...],
     sensors: Sequence[model.Part[Any]],
     widths: Mapping[str, int],
+    root: Path,
     findings: Findings,
 ) -> Iterator[model.Lesson]:
     """Every lesson of every curriculum that is well said; those that others wait for come first."""
     known = {skill.name: skill for skill in skills}, influences, {task.name: task for task in tasks}
-    context = _LessonContext(names, *known, {each.name: type(each.kind).__name__ for each in sensors}, widths, findings)
+    context = _LessonContext(
+        names, *known, {each.name: type(each.kind).__name__ for each in sensors}, widths, root, findings
+    )
     for name, declaration in names.declarations("curriculum"):
         refuse_facts(declaration, ("teaches",), findings)
         phrase = declaration.header.phrase
@@ -70,6 +75,7 @@ class _LessonContext:
     tasks: Mapping[str, model.Task]
     kinds: Mapping[str, str]
     widths: Mapping[str, int]
+    root: Path
     findings: Findings
 
     def lesson(self, curriculum: str, fact: Teaches, learner: Any, heirs: Mapping[str, str]) -> model.Lesson | None:
@@ -92,6 +98,7 @@ class _LessonContext:
             self._check_reached(fact, master)
             if origin:
                 self._check_origin(origin, self.skills[fact.skill.text], heirs)
+        hard = hard_layouts(fact.arguments, self.root, self.findings)
         needs = self._needs(fact)
         until = self._need(fact.until, fact.task.text, "until") if fact.until else None
         if learner is None or generations is None or len(self.findings.diagnostics) > before:
@@ -108,6 +115,7 @@ class _LessonContext:
             starts_from=origin.text if origin else "",
             needs=needs,
             until=until,
+            hard=hard,
             fact=fact,
         )
 
@@ -170,7 +178,8 @@ class _LessonContext:
             learner = make_kind("curriculum", phrase, Scope(self.names, None), self.findings)
         if learner is None:
             return None
-        own = [argument for argument in fact.arguments if argument.key.text not in {*SWITCHES, USING}]
+        others = {*SWITCHES, USING, HARD, *([OF] if any(each.key.text == HARD for each in fact.arguments) else [])}
+        own = [argument for argument in fact.arguments if argument.key.text not in others]
         return replace(learner, **overrides(type(learner), said_by, own, self.findings))
 
     def _needs(self, fact: Teaches) -> tuple[Need, ...]:
@@ -212,7 +221,7 @@ class _LessonContext:
     def _event_need(self, written: Phrase, above: Amount, task: str, word: str) -> Need | None:
         """How often an event of its task has to happen in a lesson; None after reporting what is wrong with it."""
         before, learners = len(self.findings.diagnostics), kinds("curriculum").values()
-        of_lessons = {*SWITCHES, USING, *(each.key for learner in learners for each in arguments(learner))}
+        of_lessons = {*SWITCHES, USING, HARD, *(each.key for learner in learners for each in arguments(learner))}
         for argument in (each for each in written.arguments if each.key.text in of_lessons):
             place = "before needs" if word == "needs" else "behind the generations"
             message = f"{argument.key.text} is no part of an event, and stands elsewhere in a lesson."

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.model import Thing
 from mindlang.compiler.source import MAX_SOURCE_BYTES, Span, decode_source
-from mindlang.compiler.syntax import Contains, File, Text, Uses, Value, of_form
+from mindlang.compiler.syntax import Contains, File, Teaches, Text, Uses, Value, of_form
 
 MAX_SHOWN_LETTERS = 3  # of those that nothing begins with
 PICTURES = re.compile(rb"P[1-6]\s|\x89PNG|\xff\xd8\xff|GIF8|BM")
@@ -66,9 +66,10 @@ def path_of(value: Text) -> Path | None:
 
 
 def map_paths(files: Iterable[File]) -> list[Path]:
-    """The text files that tasks and scenes name, and the files that procedures use."""
+    """The text files that tasks, scenes and lessons name, and the files that procedures use."""
     facts = [fact for file in files for declaration in file.declarations for fact in declaration.facts]
     values = [each.value for fact in of_form(facts, Contains) for each in fact.phrase.arguments]
+    values += [each.value for fact in of_form(facts, Teaches) for each in fact.arguments]
     values += [fact.file for fact in of_form(facts, Uses)]
     return [path for value in values if isinstance(value, Text) and (path := path_of(value))]
 

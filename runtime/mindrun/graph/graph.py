@@ -8,7 +8,7 @@ from mindrun.kinds.actuators.actuator import REACH_UNITS, ActuatorKind
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.events.event import EventKind
 from mindrun.kinds.functions.function import Function
-from mindrun.kinds.learners import Learner
+from mindrun.kinds.learners import Learner, Share
 from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.kinds.memory import Cell
 from mindrun.kinds.registry import arguments, left_out, phrase
@@ -22,6 +22,7 @@ from mindrun.numbers.short_repr import ShortRepr
 Receiver = Literal["skill", "actuator", "memory"]  # of what a skill sends
 Sink = tuple[Receiver, int]  # which one of its kind
 Varying = Literal["actuator", "sensor", "body", "thing"]  # what an argument can be of that varies
+MAX_LAYOUT, SEED_DIGITS = 2**64 - 1, 20  # the greatest seed of a run, and how many digits it has
 VARIED_NOUNS: tuple[Varying, ...] = ("actuator", "sensor", "body")  # those of the robot
 
 
@@ -290,6 +291,22 @@ class Need:
 
 
 @dataclass(frozen=True, slots=True)
+class HardLayouts:
+    """Layouts on which genomes of a lesson are scored instead of a `share` of any, as the `seeds` of their runs.
+
+    The seeds are digits: a whole number up to 2^64 is more than what every reader of JSON takes.
+    """
+
+    share: Share
+    seeds: tuple[str, ...]
+
+
+def is_layout(seed: str) -> bool:
+    """True if digits are the seed of a run."""
+    return seed.isascii() and seed.isdigit() and len(seed) <= SEED_DIGITS and int(seed) <= MAX_LAYOUT
+
+
+@dataclass(frozen=True, slots=True)
 class Lesson:
     """A lesson: which `skill` learns, on which task, driven by which master, for how long, and how (`learner`).
 
@@ -297,7 +314,7 @@ class Lesson:
     its place in its curriculum, from 1; 0 in what was made before lessons had one. One that `starts_from` another skill
     begins with a copy of its weights. One with `needs` has failed where its last attempt does not meet them all: it
     ends with the first attempt that does, and what has failed is not taught. One with `until` ends an attempt once its
-    champion does so well, before it has had its generations.
+    champion does so well, before it has had its generations. With `hard` a share of its layouts are some of these.
     """
 
     curriculum: str
@@ -312,6 +329,7 @@ class Lesson:
     starts_from: str = ""
     needs: tuple[Need, ...] = ()
     until: Need | None = left_out(None)
+    hard: HardLayouts | None = left_out(None)
 
     @property
     def all_needs(self) -> tuple[Need, ...]:

@@ -7,7 +7,7 @@ from itertools import chain
 from math import prod
 
 from mindrun.graph.draws import MAX_VALUES, Draw, intervals_of
-from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task, varied_quantity
+from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task, is_layout, varied_quantity
 from mindrun.graph.tasks import unfit_thing, varied_kind
 from mindrun.kinds.functions.procedure import is_inside
 from mindrun.kinds.registry import arguments
@@ -69,6 +69,8 @@ def lesson_flaws(lesson: Lesson) -> Iterator[str]:
             yield f"a lesson cannot name {name!r:.60}"
     if any((need.measure == "event") != bool(need.event) for need in lesson.all_needs):
         yield f"the lesson of {lesson.skill} needs what is not said"
+    if lesson.hard and not (lesson.hard.seeds and all(map(is_layout, lesson.hard.seeds))):
+        yield f"the lesson of {lesson.skill} has hard layouts that are none"
     if lesson.generations < 1:
         yield f"the lesson of {lesson.skill} has no generation"
 
