@@ -1,4 +1,4 @@
-"""Drives: what a mind or a hand did with a robot, read from recordings as readings and the commands that came of them."""
+"""Drives: what a mind or a hand did with a robot, read from recordings as readings and commands."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from mindrun.kinds.functions.function import Function
 from mindrun.numbers.arrays import Doubles
-from mindrun.numbers.network import Terms, matrices
+from mindrun.numbers.network import Terms
 from mindrun.train.population import MAX_WEIGHT
 from numpy.typing import NDArray
 
