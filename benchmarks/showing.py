@@ -1,8 +1,9 @@
 """Is a lesson better after a showing? In a sparse task, where only a delivery pays: python benchmarks/showing.py
 
 Carry, one network, is taught by the lesson alone, by imitation of one careful drive alone, and by that and then the
-lesson, at equal ticks: it has a generation less for what was driven. The teacher is a rule over skills of examples/collect, at half
-their speed. Figures are deliveries in a run, means on common fresh layouts. `--seeds 20` makes a table to be trusted.
+lesson, at equal ticks: it has a generation less for what was driven. The teacher is a rule over skills of
+examples/collect, at half their speed. Figures are deliveries in a run, means on common fresh layouts. `--seeds 20`
+makes a table to be trusted.
 """
 
 import argparse

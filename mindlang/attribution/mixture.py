@@ -21,12 +21,13 @@ from mindrun.kinds.procedure_text import Sources
 from mindrun.kinds.sensors.sensor import directions
 from mindrun.numbers.arrays import Doubles
 
-from mindlang.run.drives import Drive
+from mindlang.run.drives import Drive, Rows
 
-SPAN_SECONDS = 0.1
+SPAN_TICKS = 2
+FEWEST_SPANS = 3  # one after the other that nobody explains: fewer are a change of influence within one of them
 SMOOTHNESS = 1e-3  # of a squared change of shares from span to span, beside a squared error of a command
 STEPS = 1000  # of the search for shares
-LEFT_OVER = 0.05  # a span with a greater mean error of a command is explained by nobody
+LEFT_OVER = 0.05  # nobody explains a span with a greater mean error of a command
 TOLD, GAINED = 0.1, 0.02  # of the squared differences: explained by readings at least, and gained by each more
 
 
@@ -34,18 +35,15 @@ TOLD, GAINED = 0.1, 0.02  # of the squared differences: explained by readings at
 class Span:
     """Some ticks of a drive, counted from its first row 0, as explained by the `shares` of skills, 1 together.
 
-    `error` is the mean absolute difference from the recorded commands of that actuator of which it is greatest.
+    `error` is the mean absolute difference from the recorded commands of that actuator of which it is greatest. `by` is
+    the skill that has most of it; "" where nobody explains it.
     """
 
     first: int
     end: int
     shares: Mapping[str, float]
     error: float
-
-    @property
-    def by(self) -> str:
-        """The skill that has most of it; "" where nobody explains it."""
-        return "" if self.error > LEFT_OVER else max(self.shares, key=self.shares.__getitem__)
+    by: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +72,7 @@ class Mixture:
             ticks = np.array([span.end - span.first for span in each])
             shares = {name: float(np.average([s.shares[name] for s in each], weights=ticks)) for name in each[0].shares}
             error = float(np.average([span.error for span in each], weights=ticks))
-            found.append(Span(each[0].first, each[-1].end, shares, error))
+            found.append(Span(each[0].first, each[-1].end, shares, error, each[0].by))
         return found
 
 
@@ -116,16 +114,15 @@ def mixtures(graph: Graph, drive: Drive, sent: Mapping[str, Doubles]) -> list[Mi
     return [
         Mixture(
             tuple(graph.actuators[place].name for place in places),
-            _spans(drive.commands[:, places], {name: sent[name][:, places] for name in names}, graph.tick),
+            _spans(drive.commands[:, places], {name: sent[name][:, places] for name in names}),
         )
         for names, places in drivers.items()
     ]
 
 
-def _spans(commands: Doubles, sent: Mapping[str, Doubles], tick: float) -> tuple[Span, ...]:
+def _spans(commands: Rows, sent: Mapping[str, Doubles]) -> tuple[Span, ...]:
     """The shares of each span of commands [ticks, actuators]."""
-    size = max(2, round(SPAN_SECONDS / tick))
-    spans = [slice(first, first + size) for first in range(0, len(commands), size)]
+    spans = [slice(first, first + SPAN_TICKS) for first in range(0, len(commands), SPAN_TICKS)]
     skills = np.stack([*sent.values()])
     known = np.isfinite(commands) & np.isfinite(skills).all(axis=0)
     target, skills = np.where(known, commands, 0.0), np.where(known, skills, 0.0)
@@ -138,12 +135,18 @@ def _spans(commands: Doubles, sent: Mapping[str, Doubles], tick: float) -> tuple
         squares.append(flat @ flat.T / known[span].sum())
         products.append(flat @ target[span].ravel() / known[span].sum())
     shares = _shares(np.array(squares), np.array(products))
-    found = []
+    errors = []
     for span, share in zip(spans, shares, strict=True):
         off = np.abs(np.tensordot(share, skills[:, span], 1) - target[span])
-        error = float((off.sum(axis=0) / np.maximum(1, known[span].sum(axis=0))).max())
-        end = min(span.stop, len(commands))
-        found.append(Span(span.start, end, dict(zip(sent, share.tolist(), strict=True)), error))
+        errors.append(float((off.sum(axis=0) / np.maximum(1, known[span].sum(axis=0))).max()))
+    names, found = [*sent], list[Span]()
+    for _, group in groupby(range(len(spans)), key=lambda place: errors[place] > LEFT_OVER):
+        places = [*group]
+        is_left = errors[places[0]] > LEFT_OVER and len(places) >= FEWEST_SPANS
+        for place in places:
+            of = dict(zip(names, shares[place].tolist(), strict=True))
+            begin, end = spans[place].start, min(spans[place].stop, len(commands))
+            found.append(Span(begin, end, of, errors[place], "" if is_left else max(of, key=of.__getitem__)))
     return tuple(found)
 
 
@@ -174,7 +177,8 @@ def _on_simplex(points: Doubles) -> Doubles:
     above = np.cumsum(falling, axis=1) - 1
     count = (falling - above / np.arange(1, points.shape[1] + 1) > 0).sum(axis=1)
     level = above[np.arange(len(points)), count - 1] / count
-    return np.maximum(points - level[:, None], 0.0)
+    found: Doubles = np.maximum(points - level[:, None], 0.0)
+    return found
 
 
 def telling_readings(graph: Graph, drive: Drive, of: Mixture) -> list[str]:

@@ -10,7 +10,7 @@ from mindrun.terminal.command_line import command_line
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from mindlang.attribution.mixture import LEFT_OVER, SPAN_SECONDS, Mixture, telling_readings
+from mindlang.attribution.mixture import FEWEST_SPANS, LEFT_OVER, SPAN_TICKS, Mixture, telling_readings
 from mindlang.compiler.diagnostic import listed
 from mindlang.run.drives import Drive
 from mindlang.run.summary import aligned
@@ -55,7 +55,9 @@ def _lines(found: dict[str, Any], recording: str, file: str) -> Iterator[Rendera
     names = sorted(found["skills"], key=lambda name: -found["skills"][name])
     letters = dict(zip(names, ascii_uppercase, strict=False))
     yield Text.assemble((listed(found["actuators"], "and"), "bold"), f" in ticks {first:,} to {last:,} of {recording}")
-    yield Text(f"  each {SPAN_SECONDS:g} s is a mean of skills; nobody's is what they miss by more than {LEFT_OVER:g}")
+    yield Text(
+        f"left over: {FEWEST_SPANS * SPAN_TICKS} ticks or more that no mean of these is within {LEFT_OVER:g} of", "dim"
+    )
     yield ""
     rows = [(letters.get(name, "?"), name, f"{found['skills'][name]:.0%}") for name in names]
     yield aligned([*rows, (NOBODY, "left over", f"{found['left_over']:.0%}")], (0, 1), ("", "", "influence"))

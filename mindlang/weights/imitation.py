@@ -29,7 +29,7 @@ from mindlang.weights.network import SkillNetwork
 HELD_OUT = 5  # of so many drives one; of a single one so large a part, its last
 FEWEST_TICKS = 100  # that can be compared, of those that weights are fitted to
 MOST_TICKS = 8000  # that weights are fitted to, evenly from all
-FITTED_NUMBERS = 800_000  # ticks times weights, at most, of a function that remembers nothing
+FITTED_NUMBERS = 400_000  # ticks times weights, at most, of a function that remembers nothing
 WINDOW_TICKS = 2000  # of a function that remembers: it begins each with nothing remembered, as a run
 
 
@@ -142,6 +142,7 @@ def _parted(drives: Sequence[Drive], seed: int) -> tuple[list[Drive], list[Drive
 
 def _shown(graph: Graph, skill: Skill, drive: Drive) -> Shown:
     wanted = np.full((len(drive), skill.outputs), np.nan, np.float32)
+    sent: Rows
     own = drive.influence[:, graph.skill_numbers[skill.name]]
     for edge in skill.edges:
         if edge.output is not None:

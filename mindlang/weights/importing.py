@@ -196,7 +196,8 @@ class Imported:
     """The outcome of a trial: the scores, and whether the lock has the weights now.
 
     `deviation` is the engine's, of weights from another program. `scores` has the old ones beside them, where there
-    were any that fit. `notes` say which skills were taught with those that were there. The lock `is_unchanged` where it had these very weights.
+    were any that fit. `notes` say which skills were taught with those that were there. The lock `is_unchanged` where it
+    had these very weights.
     """
 
     trial: Trial
