@@ -1,17 +1,19 @@
 """A drive taken apart: which skills, with which influence over time, explain its commands, and what is left over.
 
-    found = mixture(graph, drive, commands_of(policy, sources, drive))
+    for drive, found in taken_apart(subject, [Path("drive.rec")]): ...
 
 A command is a mean of what skills send, weighed by their influence (Eq. 3), so for known readings it is linear in their
 shares of influence. In each span of time shares that are 0 or more, and 1 together, are found for which the squared
 difference from the recorded commands is least; neighbouring spans are held together a little.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
+from pathlib import Path
 
 import numpy as np
+from mindrun.engine.engine import procedure_sources
 from mindrun.engine.think import clamped, hierarchy, values
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
@@ -21,14 +23,19 @@ from mindrun.kinds.procedure_text import Sources
 from mindrun.kinds.sensors.sensor import directions
 from mindrun.numbers.arrays import Doubles
 
-from mindlang.run.drives import Drive, Rows
+from mindlang.lock.status import trained_weights
+from mindlang.run.drives import Drive, Rows, read_drives
+from mindlang.training.subject import Subject
 
 SPAN_TICKS = 2
 FEWEST_SPANS = 3  # one after the other that nobody explains: fewer are a change of influence within one of them
-SMOOTHNESS = 1e-3  # of a squared change of shares from span to span, beside a squared error of a command
-STEPS = 1000  # of the search for shares
+SMOOTHNESS_SHARE = 1e-3  # of a squared change of shares from span to span, beside a squared error of a command
+SEARCH_STEPS = 1000  # of the search for shares
 LEFT_OVER = 0.05  # nobody explains a span with a greater mean error of a command
-TOLD, GAINED = 0.1, 0.02  # of the squared differences: explained by readings at least, and gained by each more
+TOLD_SHARE, GAINED_SHARE = (
+    0.1,
+    0.02,
+)  # of the squared differences: explained by readings at least, and gained by each more
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +81,19 @@ class Mixture:
             error = float(np.average([span.error for span in each], weights=ticks))
             found.append(Span(each[0].first, each[-1].end, shares, error, each[0].by))
         return found
+
+
+def taken_apart(subject: Subject, paths: Iterable[Path]) -> Iterator[tuple[Drive, list[Mixture]]]:
+    """The drives in recordings, taken apart into the skills of a mind that are taught or learn nothing.
+
+    MindError where a recording is of another mind, or a procedure cannot be made ready.
+    """
+    graph = subject.graph
+    names = [skill.name for skill in graph.skills]
+    policy = Policy(graph, trained_weights(graph, subject.lock, names)[0])
+    sources = {key: text for name in names for key, text in procedure_sources(graph, subject.folder, name).items()}
+    for drive in read_drives(paths, graph):
+        yield drive, mixtures(graph, drive, commands_of(policy, sources, drive))
 
 
 def commands_of(policy: Policy, sources: Sources, drive: Drive) -> dict[str, Doubles]:
@@ -157,12 +177,12 @@ def _shares(squares: Doubles, products: Doubles) -> Doubles:
     accelerated projected gradients (Nesterov).
     """
     spans, skills = products.shape
-    step = 1 / (max(np.linalg.norm(each, 2) for each in squares) + 4 * SMOOTHNESS)
+    step = 1 / (max(np.linalg.norm(each, 2) for each in squares) + 4 * SMOOTHNESS_SHARE)
     shares = ahead = np.full((spans, skills), 1 / skills)
     pace = 1.0
-    for _ in range(STEPS):
+    for _ in range(SEARCH_STEPS):
         slope = np.einsum("sij,sj->si", squares, ahead) - products
-        between = SMOOTHNESS * np.diff(ahead, axis=0)
+        between = SMOOTHNESS_SHARE * np.diff(ahead, axis=0)
         slope[:-1] -= between
         slope[1:] += between
         moved, faster = _on_simplex(ahead - step * slope), (1 + np.sqrt(1 + 4 * pace * pace)) / 2
@@ -196,7 +216,7 @@ def telling_readings(graph: Graph, drive: Drive, of: Mixture) -> list[str]:
     if not is_tested[is_known].any() or is_tested[is_known].all():
         return []
     chosen: list[str] = []
-    best = TOLD - GAINED
+    best = TOLD_SHARE - GAINED_SHARE
     while rest := [name for name in features if name not in chosen]:
         told = {
             name: _explained(
@@ -205,7 +225,7 @@ def telling_readings(graph: Graph, drive: Drive, of: Mixture) -> list[str]:
             for name in rest
         }
         name = max(told, key=told.__getitem__)
-        if told[name] < best + GAINED:
+        if told[name] < best + GAINED_SHARE:
             break
         chosen, best = [*chosen, name], told[name]
     return chosen

@@ -8,6 +8,7 @@ Examples:
 """
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -45,6 +46,16 @@ def command(file: str, skill: str, recordings: tuple[Path, ...], seed: int, forc
 
     Ends with 1 where the lock stays as it is.
     """
+    terminal.refuse_standard_input(file, "Weights are kept beside a file, and standard input is none.")
+    made, found = _imitated(file, skill, recordings, seed, force)
+    terminal.print_result(made.data(found), lambda: _report(made, found))
+    sys.exit(terminal.OK if found.is_kept else terminal.FINDINGS)
+
+
+def _imitated(
+    file: str, skill: str, recordings: Sequence[Path], seed: int, force: bool
+) -> "tuple[Imitation, Imported]":
+    """The weights that a skill learns from recordings, and what became of them in its lesson."""
     from mindrun.train import NotFoundError
 
     from mindlang.cli._session import RunSession, ensure_compiled
@@ -55,7 +66,6 @@ def command(file: str, skill: str, recordings: tuple[Path, ...], seed: int, forc
     from mindlang.weights.least_squares import step_count
     from mindlang.weights.network import network_of
 
-    terminal.refuse_standard_input(file, "Weights are kept beside a file, and standard input is none.")
     session = RunSession()
     with (
         terminal.refusing(end="."),
@@ -71,9 +81,7 @@ def command(file: str, skill: str, recordings: tuple[Path, ...], seed: int, forc
         lineage, digest = made.lineage
         trial = trial_of(subject, network, made.genome, lesson, others, Path(lineage), digest)
         ensure_compiled(trial.rollout, session.say)
-        found = try_weights(trial, force)
-    terminal.print_result(made.data(found), lambda: _report(made, found))
-    sys.exit(terminal.OK if found.is_kept else terminal.FINDINGS)
+        return made, try_weights(trial, force)
 
 
 def _report(made: "Imitation", found: "Imported") -> "RenderableType":

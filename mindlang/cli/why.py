@@ -125,15 +125,10 @@ def where_runs_end(words: Sequence[str], chosen: options.RunChoice, runs: int) -
 
 def take_apart(words: Sequence[str]) -> None:
     """Print which skills explain a drive, and what is left over."""
-    from mindrun.engine.engine import procedure_sources
-    from mindrun.graph.policy import Policy
-
-    from mindlang.attribution.mixture import commands_of, mixtures
+    from mindlang.attribution.mixture import taken_apart
     from mindlang.attribution.mixture_report import mixture_data, mixture_text
     from mindlang.cli._session import refusing_recordings
     from mindlang.cli._terminal import fail, load_compiled
-    from mindlang.lock.status import trained_weights
-    from mindlang.run.drives import read_drives
     from mindlang.training.subject import open_subject
 
     options.refuse_ineffective("not for --skills, which takes a whole recording apart", "tick", "paths")
@@ -142,13 +137,9 @@ def take_apart(words: Sequence[str]) -> None:
         raise click.UsageError("--skills is of a recording and a mind: mindc why drive.rec collect.mind --skills.")
     recording, file = words
     with refusing_recordings():
-        subject = open_subject(Path(file), load_compiled(file))
-        graph, found = subject.graph, list[dict[str, Any]]()
-        names = [skill.name for skill in graph.skills]
-        policy = Policy(graph, trained_weights(graph, subject.lock, names)[0])
-        sources = {key: text for name in names for key, text in procedure_sources(graph, subject.folder, name).items()}
-        for drive in read_drives([Path(recording)], graph):
-            found += mixture_data(graph, drive, mixtures(graph, drive, commands_of(policy, sources, drive)))
+        subject, found = open_subject(Path(file), load_compiled(file)), list[dict[str, Any]]()
+        for drive, mixtures in taken_apart(subject, [Path(recording)]):
+            found += mixture_data(subject.graph, drive, mixtures)
     if not found:
         fail(f"No skill of {file} that is taught reads what {recording} has.", "mindc status says which are.", MISUSE)
     print_result(found, lambda: mixture_text(found, recording, file))

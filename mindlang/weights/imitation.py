@@ -142,14 +142,12 @@ def _parted(drives: Sequence[Drive], seed: int) -> tuple[list[Drive], list[Drive
 
 def _shown(graph: Graph, skill: Skill, drive: Drive) -> Shown:
     wanted = np.full((len(drive), skill.outputs), np.nan, np.float32)
-    sent: Rows
     own = drive.influence[:, graph.skill_numbers[skill.name]]
     for edge in skill.edges:
         if edge.output is not None:
+            sent = (drive.influence if edge.to == "skill" else drive.commands)[:, edge.target]
             if edge.to == "skill":
-                sent = drive.influence[:, edge.target] / np.where(own > 0, own, np.float32(1.0))
-            else:
-                sent = drive.commands[:, edge.target]
+                sent = np.asarray(sent / np.where(own > 0, own, np.float32(1.0)), np.float32)
             if edge.gate:
                 is_open = evaluate_rows(edge.gate.when, columns(drive.readings), len(drive)) > 0
                 sent = np.where(is_open, sent, np.float32(np.nan))

@@ -15,12 +15,12 @@ from mindrun.numbers.network import Terms
 from mindrun.train.population import MAX_WEIGHT
 from numpy.typing import NDArray
 
-BEGINNINGS, FIRST_STEPS, STEPS = 12, 12, 40  # genomes drawn; steps of each; steps of the best of them
-COARSE = 5  # the first steps see one of so many ticks; of a function that remembers the first ticks of each sequence
-STEP = 1e-6  # of a weight, for a derivative
-DAMPINGS = 1e-3, 1e-9, 1e9  # the first, the least, and the one at which a step is given up
-RIDGE = 1e-7  # of each squared weight, of what a squared error of one counts: weights stay small where they may
-ENOUGH = 1e-5  # of the error: a step that gains less is the last
+DRAWN_GENOMES, FIRST_STEPS, LAST_STEPS = 12, 12, 40  # genomes drawn; steps of each; steps of the best of them
+FEW_OF_TICKS = 5  # the first steps see one of so many; of a function that remembers each sequence's first
+WEIGHT_STEP = 1e-6  # of a weight, for a derivative
+DAMPING_BOUNDS = 1e-3, 1e-9, 1e9  # the first, the least, and the one at which a step is given up
+RIDGE_SHARE = 1e-7  # of each squared weight, of what a squared error of one counts: weights stay small where they may
+LEAST_GAIN = 1e-5  # of the error: a step that gains less is the last
 CHUNK_NUMBERS = 1 << 21  # genomes times rows that are computed at once
 
 
@@ -43,25 +43,25 @@ class Examples:
 def fitted(function: Function, examples: Examples, seed: int, told: Callable[[int], object]) -> NDArray[np.float32]:
     """The genome whose outputs have the least squared error; `told` hears of each step: `step_count()` at most."""
     many, outputs = examples.inputs.shape[2], examples.wanted.shape[2]
-    begun = function.draw(many, outputs, BEGINNINGS, np.random.default_rng(seed)).astype(np.float64)
+    begun = function.draw(many, outputs, DRAWN_GENOMES, np.random.default_rng(seed)).astype(np.float64)
     ticks = len(examples.inputs)
     remembers = bool(function.state_length(many, outputs))
-    few = examples.part(slice(max(1, ticks // COARSE)) if remembers else slice(0, None, COARSE))
+    few = examples.part(slice(max(1, ticks // FEW_OF_TICKS)) if remembers else slice(0, None, FEW_OF_TICKS))
     tried = [_descended(function, few, genome, FIRST_STEPS, told) for genome in begun]
     best = min(tried, key=lambda genome: _error(function, examples, genome))
-    return _descended(function, examples, best, STEPS, told).astype(np.float32)
+    return _descended(function, examples, best, LAST_STEPS, told).astype(np.float32)
 
 
 def step_count() -> int:
     """The number of steps of a whole fit, if none ends early."""
-    return BEGINNINGS * FIRST_STEPS + STEPS
+    return DRAWN_GENOMES * FIRST_STEPS + LAST_STEPS
 
 
 def _descended(
     function: Function, examples: Examples, genome: Doubles, steps: int, told: Callable[[int], object]
 ) -> Doubles:
     """A genome after so many steps."""
-    damping, least, most = DAMPINGS
+    damping, least, most = DAMPING_BOUNDS
     error, curvature, slope = _linear(function, examples, genome)
     for step in range(steps):
         before = error
@@ -73,7 +73,7 @@ def _descended(
                 error, curvature, slope = _linear(function, examples, genome)
                 break
             damping *= 4
-        if before - error <= ENOUGH * before:
+        if before - error <= LEAST_GAIN * before:
             told(steps - step)
             break
         told(1)
@@ -83,20 +83,20 @@ def _descended(
 def _error(function: Function, examples: Examples, genome: Doubles) -> float:
     """The sum of squared errors, and of the weights' own."""
     found = np.square(_residuals(function, examples, genome[None])).sum()
-    return float(found) + RIDGE * examples.wanted.size * float(genome @ genome)
+    return float(found) + RIDGE_SHARE * examples.wanted.size * float(genome @ genome)
 
 
 def _linear(function: Function, examples: Examples, genome: Doubles) -> tuple[float, Doubles, Doubles]:
     """The error, and in its neighbourhood JᵀJ and Jᵀr, summed over parts of the examples."""
-    ridge = RIDGE * examples.wanted.size
+    ridge = RIDGE_SHARE * examples.wanted.size
     error, curvature, slope = ridge * float(genome @ genome), ridge * np.eye(len(genome)), ridge * genome
-    others = np.concatenate([genome[None], genome + STEP * np.eye(len(genome))])
+    others = np.concatenate([genome[None], genome + WEIGHT_STEP * np.eye(len(genome))])
     ticks, sequences, _ = examples.inputs.shape
     along = 1 if function.state_length(examples.inputs.shape[2], examples.wanted.shape[2]) else 0
     rows = max(1, CHUNK_NUMBERS // (len(others) * (ticks if along else sequences)))
     for first in range(0, examples.inputs.shape[along], rows):
         found = _residuals(function, examples.part(slice(first, first + rows), along), others)
-        residuals, derivatives = found[0], (found[1:] - found[0]) / STEP
+        residuals, derivatives = found[0], (found[1:] - found[0]) / WEIGHT_STEP
         error += float(residuals @ residuals)
         curvature += derivatives @ derivatives.T
         slope += derivatives @ residuals
