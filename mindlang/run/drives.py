@@ -64,20 +64,21 @@ def _drives(path: Path, graph: Graph) -> list[Drive]:
             influence[:, place] = rows["influence"][:, about.skills.index(skill.name)]
     commands = np.where(rows["stopped"][:, None] != 0, np.float32(np.nan), rows["sent"])
     task = about.world.task if about.world else ""
+    is_late = about.world is not None and not getattr(about, "by_hand", ())  # a hand's commands are as it gave them
     begins = [0, *(np.flatnonzero(rows["tick"][1:] == 0) + 1).tolist(), len(rows)]
     return [
         Drive(path.name, digest, begin, task, rows["readings"][begin:end], influence[begin:end], sent)
         for begin, end in pairwise(begins)
         if begin < end
-        for sent in [_when_sent(commands[begin:end], graph, bool(about.world))]
+        for sent in [_when_sent(commands[begin:end], graph, is_late)]
     ]
 
 
-def _when_sent(commands: Rows, graph: Graph, is_simulated: bool) -> Rows:
-    """Commands in the ticks in which they were sent: in a simulated world some reach their actuators later."""
+def _when_sent(commands: Rows, graph: Graph, is_late: bool) -> Rows:
+    """Commands in the ticks in which they were sent, where they stand in those in which they reached an actuator."""
     found = np.full_like(commands, np.nan)
     for place, actuator in enumerate(graph.actuators):
-        delay = actuator.kind.delay if is_simulated else 0
+        delay = actuator.kind.delay if is_late else 0
         found[: max(0, len(commands) - delay), place] = commands[delay:, place]
     return found
 
