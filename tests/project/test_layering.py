@@ -97,6 +97,7 @@ def test_weights_are_put_beside_a_graph_in_few_places() -> None:
         "mindlang/lock/status.py": "arranged here",
         "mindlang/run/setup.py": "the arranged ones, and zeros beside them",
         "mindlang/editing/verify.py": "arranged there, before and after an edit",
+        "mindlang/attribution/mixture.py": "those of a subject, which is arranged",
         "mindlang/weights/importing.py": "a lesson of a subject, which is arranged",
         "mindlang/training/taught_runs.py": "those of a run, if its mind has them in the order of the subject",
         "mindlang/training/teaching.py": "a run has those of its subject, which is arranged",
