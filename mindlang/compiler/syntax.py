@@ -1,6 +1,7 @@
 """The tree of a file: one small struct per fact, each with its span. Nothing in it is checked yet."""
 
 from collections.abc import Callable, Iterable, Iterator
+from math import inf
 from typing import Any, TypeVar
 
 from msgspec import Struct
@@ -15,6 +16,7 @@ NOUNS = (*PARTS, *WHOLES, "task")
 VERBS = (
     "reads", "drives", "influences", "chooses", "stays", "uses", "requires", "maintains", "achieves", "contains",
     "starts", "draws", "varies", "fails", "lasts", "ends", "succeeds", "opens", "rewards", "counts", "teaches",
+    "wants", "avoids", "keeps",
 )  # fmt: skip
 SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
 
@@ -147,7 +149,7 @@ class Term(Struct, frozen=True):
 class Expression(Struct, frozen=True):
     """Terms in postfix order: a flat tuple, so that no depth of nesting ever needs a deep stack."""
 
-    terms: tuple[Amount | Phrase | Term, ...]
+    terms: tuple["Amount | Phrase | Term | Tally", ...]
     span: Span
 
     @property
@@ -156,8 +158,10 @@ class Expression(Struct, frozen=True):
         return tuple((term.word, term.operand) for term in of_form(self.terms, Term))
 
     def found(self, word: str) -> list[Term]:
-        """The resolved terms of a word, such as reading."""
-        return [term for term in of_form(self.terms, Term) if term.word == word]
+        """The resolved terms of a word, such as reading, also in the conditions of its tallies."""
+        tallies = [term.operand.when for term in of_form(self.terms, Term) if term.word == "tally"]
+        nested = [each for inner in expressions_in(*tallies) for each in inner.found(word)]
+        return [*(term for term in of_form(self.terms, Term) if term.word == word), *nested]
 
 
 class Comparison(Struct, frozen=True):
@@ -167,6 +171,20 @@ class Comparison(Struct, frozen=True):
     compare: str
     right: Expression
     span: Span
+
+
+class Tally(Struct, frozen=True):
+    """`(count of EVENT [when CONDITION])`, `(count when CONDITION)` or `(longest when CONDITION)`, of a run so far.
+
+    Once it is resolved its `event` is one, and no longer a phrase.
+    """
+
+    word: Name
+    event: Any
+    when: "When | None"
+    span: Span
+
+    interval = (0.0, inf)
 
 
 class Transmits(Struct, frozen=True):
@@ -366,6 +384,7 @@ class Rewards(Struct, frozen=True):
     each: Each | None
     when: When | None
     span: Span
+    final: Name | None = None
 
 
 class Counts(Struct, frozen=True):
@@ -373,6 +392,45 @@ class Counts(Struct, frozen=True):
 
     event: Phrase
     span: Span
+
+
+class Deadline(Struct, frozen=True):
+    """`within AMOUNT`, of a goal; `after AMOUNT` and `for AMOUNT` likewise."""
+
+    amount: Amount
+    span: Span
+
+
+class After(Deadline, frozen=True):
+    """`after AMOUNT`"""
+
+
+class Lasting(Deadline, frozen=True):
+    """`for AMOUNT`"""
+
+
+class Wants(Struct, frozen=True):
+    """`wants [TIMES] EVENT [within AMOUNT]`, a goal"""
+
+    times: Amount | None
+    event: Phrase
+    deadline: Deadline | None
+    span: Span
+
+
+class Avoids(Outcome, frozen=True):
+    """`avoids [TIMES] EVENT` or `avoids CONDITION`, a goal"""
+
+
+class Keeps(Struct, frozen=True):
+    """`keeps CONDITION [after AMOUNT]` or `keeps CONDITION for AMOUNT`, a goal"""
+
+    when: When
+    time: After | Lasting | None
+    span: Span
+
+
+Goal = Wants | Avoids | Keeps
 
 
 class Needs(Struct, frozen=True):
@@ -400,7 +458,7 @@ class Teaches(Struct, frozen=True):
 
 Fact = (
     Reads | Drives | Influences | Chooses | Stays | Uses | Promise | Contains | Starts | Draws | Varies | Fails | Lasts
-    | Ends | Succeeds | Opens | Rewards | Counts | Teaches
+    | Ends | Succeeds | Opens | Rewards | Counts | Teaches | Wants | Avoids | Keeps
 )  # fmt: skip
 
 
@@ -545,12 +603,13 @@ def expressions_in(*nodes: Any) -> Iterator[Expression]:
         match node:
             case Expression():
                 yield node
+                yield from expressions_in(*(each.when for each in of_form(node.terms, Tally)))
             case Header(at=at, gate=gate):
                 yield from expressions_in(at, gate)
             case Contains(phrase=phrase, when=when):
                 yield from (each for of in phrase.arguments if isinstance(of.value, Sums) for each in of.value.sums)
                 yield from expressions_in(when)
-            case Sends() | Gate() | Outcome() | When() | Comparison() | Rewards():
+            case Sends() | Gate() | Outcome() | When() | Comparison() | Rewards() | Wants() | Keeps():
                 yield from expressions_in(*astuple(node))
             case tuple():
                 yield from expressions_in(*node)

@@ -23,7 +23,7 @@ TIMES = Quantity("how many times", {"": 1.0}, low=1, high=MAX_RUN_TICKS, whole=T
 LASTS = replace(TICKS, low=1.0, high=MAX_RUN_TICKS)
 
 SCENE_FACTS = ("contains", "starts", "draws", "varies", "fails")  # what the world is, not what is to be done in it
-TASK_FACTS = (*SCENE_FACTS, "lasts", "ends", "succeeds", "opens", "rewards", "counts")
+TASK_FACTS = (*SCENE_FACTS, "lasts", "ends", "succeeds", "opens", "rewards", "counts", "wants", "avoids", "keeps")
 
 
 def resolve_tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
