@@ -168,6 +168,8 @@ def _subject(fact: Fact) -> Hashable:
             about = (_text(event),)
         case syntax.Keeps(when):
             about = (_text(when),)
+        case syntax.Prefers(how, amount):
+            about = how.text, _text(amount)
         case syntax.Rewards(amount, None, each, when):
             read = frozenset(_text(term) for term in amount.terms if isinstance(term, Phrase | syntax.Tally))
             about = read, fact.final is None, each and each.sensor.text, _text(when)
@@ -180,6 +182,6 @@ def _subject(fact: Fact) -> Hashable:
     return type(fact), *about
 
 
-def _text(node: Phrase | syntax.When | syntax.Tally | None) -> str:
+def _text(node: Phrase | syntax.When | syntax.Tally | syntax.Expression | None) -> str:
     """The source text with single spaces; empty for None."""
     return " ".join(said(node).split()) if node else ""

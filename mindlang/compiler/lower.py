@@ -164,7 +164,8 @@ def program_of(expression: Expression | When, places: Places) -> graph.Program:
             case "tally":
                 event = None if operand.event is None else _event(operand.event, places.events)
                 when = None if operand.when is None else program_of(operand.when, places)
-                return word, _index(graph.Tally(event, when, operand.word.text == "longest"), places.tallies)
+                of = None if operand.value is None else program_of(operand.value, places)
+                return word, _index(graph.Tally(event, when, operand.word.text == "longest", of), places.tallies)
         return word, operand
 
     return tuple(placed(*instruction) for instruction in expression.formula)

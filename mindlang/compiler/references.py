@@ -93,7 +93,7 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
             yield from _if_any(stands_for, *READABLE_NOUNS)
         case syntax.Sends():
             yield from _in_output(line)
-        case syntax.Promise():
+        case syntax.Promise() | syntax.Keeps() | syntax.Prefers():
             yield from _in_expressions(*syntax.expressions_in(line))
         case syntax.Contains(name, phrase):
             yield name, ("thing",)
@@ -105,13 +105,9 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
             yield of, (*VARIED_NOUNS, "thing")
         case syntax.Fails(name):
             yield name, ("actuator", "sensor")
-        case syntax.Outcome(event=event) | syntax.Counts(event):
+        case syntax.Outcome(event=event) | syntax.Counts(event) | syntax.Wants(event=event):
             yield from _if_any(line.name if isinstance(line, syntax.Opens) else None, "thing")
             yield from _in_phrase("event", event)
-            yield from _in_expressions(*syntax.expressions_in(line))
-        case syntax.Wants(event=event):
-            yield from _in_phrase("event", event)
-        case syntax.Keeps():
             yield from _in_expressions(*syntax.expressions_in(line))
         case syntax.Rewards(amount, on, each, when):
             own = each.name.text if each else ""

@@ -16,7 +16,7 @@ NOUNS = (*PARTS, *WHOLES, "task")
 VERBS = (
     "reads", "drives", "influences", "chooses", "stays", "uses", "requires", "maintains", "achieves", "contains",
     "starts", "draws", "varies", "fails", "lasts", "ends", "succeeds", "opens", "rewards", "counts", "teaches",
-    "wants", "avoids", "keeps",
+    "wants", "avoids", "keeps", "then", "prefers",
 )  # fmt: skip
 SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
 
@@ -159,9 +159,10 @@ class Expression(Struct, frozen=True):
 
     def found(self, word: str) -> list[Term]:
         """The resolved terms of a word, such as reading, also in the conditions of its tallies."""
-        tallies = [term.operand.when for term in of_form(self.terms, Term) if term.word == "tally"]
-        nested = [each for inner in expressions_in(*tallies) for each in inner.found(word)]
-        return [*(term for term in of_form(self.terms, Term) if term.word == word), *nested]
+        resolved = of_form(self.terms, Term)
+        tallies = ((term.operand.when, term.operand.value) for term in resolved if term.word == "tally")
+        nested = (each for inner in expressions_in(*tallies) for each in inner.found(word))
+        return [*(term for term in resolved if term.word == word), *nested]
 
 
 class Comparison(Struct, frozen=True):
@@ -174,7 +175,7 @@ class Comparison(Struct, frozen=True):
 
 
 class Tally(Struct, frozen=True):
-    """`(count of EVENT [when CONDITION])`, `(count when CONDITION)` or `(longest when CONDITION)`, of a run so far.
+    """`(count of EVENT …)`, `(count when CONDITION)`, `(longest when CONDITION)` or `(sum of EXPRESSION …)`, of a run.
 
     Once it is resolved its `event` is one, and no longer a phrase.
     """
@@ -182,6 +183,7 @@ class Tally(Struct, frozen=True):
     word: Name
     event: Any
     when: "When | None"
+    value: "Expression | None"
     span: Span
 
     interval = (0.0, inf)
@@ -395,14 +397,10 @@ class Counts(Struct, frozen=True):
 
 
 class Deadline(Struct, frozen=True):
-    """`within AMOUNT`, of a goal; `after AMOUNT` and `for AMOUNT` likewise."""
+    """`within AMOUNT`, or `after AMOUNT`, of a goal"""
 
     amount: Amount
     span: Span
-
-
-class After(Deadline, frozen=True):
-    """`after AMOUNT`"""
 
 
 class Lasting(Deadline, frozen=True):
@@ -414,19 +412,34 @@ class Wants(Struct, frozen=True):
 
     times: Amount | None
     event: Phrase
-    deadline: Deadline | None
+    time: Deadline | None
     span: Span
+    then: bool = False
 
 
 class Avoids(Outcome, frozen=True):
     """`avoids [TIMES] EVENT` or `avoids CONDITION`, a goal"""
+
+    time = None
+    then = False
 
 
 class Keeps(Struct, frozen=True):
     """`keeps CONDITION [after AMOUNT]` or `keeps CONDITION for AMOUNT`, a goal"""
 
     when: When
-    time: After | Lasting | None
+    time: Deadline | None
+    span: Span
+    then: bool = False
+
+    times = None
+
+
+class Prefers(Struct, frozen=True):
+    """`prefers soon`, `prefers little EXPRESSION` or `prefers much EXPRESSION`"""
+
+    how: Name
+    amount: Expression | None
     span: Span
 
 
@@ -459,6 +472,7 @@ class Teaches(Struct, frozen=True):
 Fact = (
     Reads | Drives | Influences | Chooses | Stays | Uses | Promise | Contains | Starts | Draws | Varies | Fails | Lasts
     | Ends | Succeeds | Opens | Rewards | Counts | Teaches | Wants | Avoids | Keeps
+    | Prefers
 )  # fmt: skip
 
 
@@ -603,13 +617,13 @@ def expressions_in(*nodes: Any) -> Iterator[Expression]:
         match node:
             case Expression():
                 yield node
-                yield from expressions_in(*(each.when for each in of_form(node.terms, Tally)))
+                yield from expressions_in(*((each.when, each.value) for each in of_form(node.terms, Tally)))
             case Header(at=at, gate=gate):
                 yield from expressions_in(at, gate)
             case Contains(phrase=phrase, when=when):
                 yield from (each for of in phrase.arguments if isinstance(of.value, Sums) for each in of.value.sums)
                 yield from expressions_in(when)
-            case Sends() | Gate() | Outcome() | When() | Comparison() | Rewards() | Wants() | Keeps():
+            case Sends() | Gate() | Outcome() | When() | Comparison() | Rewards() | Keeps() | Prefers():
                 yield from expressions_in(*astuple(node))
             case tuple():
                 yield from expressions_in(*node)

@@ -443,6 +443,7 @@ class PlainWorld:
         """Add what happened to each tally, where its condition holds."""
         for i, tally in enumerate(self.task.tallies):
             times = 1 if tally.event is None else happened[tally.event]
+            times = times if tally.value is None else self.value(tally.value, readings, self.found, 0)
             if tally.when is not None and not self.value(tally.when, readings, self.found, 0) > 0:
                 self.stretches[i] = 0.0
                 continue

@@ -409,7 +409,8 @@ def _tallies(
     programs = _programs(graph.width, measures, len(graph.actuators), False, draws, earlier)
     event = draw(st.sampled_from(happening)) if happening and draw(st.booleans()) else None
     when = draw(conditions(programs)) if event is None or draw(st.booleans()) else None
-    return Tally(event, when, event is None and draw(st.booleans()))
+    value = draw(programs) if event is None and draw(st.booleans()) else None
+    return Tally(event, when, event is None and value is None and draw(st.booleans()), value)
 
 
 @st.composite

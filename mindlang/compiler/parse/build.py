@@ -27,7 +27,7 @@ _FORMS: Mapping[str, type[Struct]] = {
     "counts": syntax.Counts, "transmission": syntax.Transmits,
     "each": syntax.Each, "when": syntax.When, "comparison": syntax.Comparison, "argument": Argument,
     "setting": Argument, "origin": Argument, "family": syntax.Family,
-    "deadline": syntax.Deadline, "after": syntax.After, "lasting": syntax.Lasting, "keeps": syntax.Keeps,
+    "deadline": syntax.Deadline, "after": syntax.Deadline, "lasting": syntax.Lasting,
 }  # fmt: skip
 _SENT = {"name": Name, "at": Expression, "gate": syntax.Gate, "stands_for": Name}
 _NEED = {"measure": Name, "compare": str, "above": Amount, "event": Phrase}
@@ -43,7 +43,9 @@ _FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, Any]]] = {
     "opens": (syntax.Opens, {"name": Name, **_OUTCOME}),
     **dict.fromkeys(("needs", "often", "until"), (syntax.Needs, _NEED)),
     "avoids": (syntax.Avoids, _OUTCOME),
-    "tally": (syntax.Tally, {"word": Name, "event": Phrase, "when": syntax.When}),
+    "keeps": (syntax.Keeps, {"when": syntax.When, "time": syntax.Deadline}),
+    "prefers": (syntax.Prefers, {"how": Name, "amount": Expression}),
+    "tally": (syntax.Tally, {"word": Name, "event": Phrase, "when": syntax.When, "value": Expression}),
     "stop": (syntax.Stop, {**_OUTCOME, "tick": syntax.Tick}),
     "rewards": (
         syntax.Rewards,
@@ -88,7 +90,8 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         return Name(str(token), self._span(token))
 
     TITLE = LETTER = PART = WHOLE = TASK = COMPUTED = NUMBERED = SEVERAL = ORDERED = BROKEN = NAME
-    GYMNASIUM = ENVIRONMENT = FROM = TO = BY = ON = OF = FACING = AT = ALONG = WITHIN = COUNT = LONGEST = FINAL = NAME
+    GYMNASIUM = ENVIRONMENT = FROM = TO = BY = ON = OF = FACING = AT = ALONG = WITHIN = NAME
+    COUNT = LONGEST = SUM = FINAL = SOON = HOW = NAME
 
     def COMPARE(self, token: Token) -> str:  # noqa: N802
         """A sign between two values."""
@@ -198,6 +201,10 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     def event(self, meta: Any, parts: list[Any]) -> Phrase:
         phrase, within = (*parts, None)[:2]
         return Phrase(phrase.kind, phrase.arguments, self._span(meta), within)
+
+    def then(self, meta: Any, parts: list[Any]) -> syntax.Wants | syntax.Keeps:
+        goal: syntax.Wants | syntax.Keeps = replace(parts[0], then=True, span=self._span(meta))
+        return goal
 
     def wants(self, meta: Any, parts: list[Any]) -> syntax.Wants:
         times = parts.pop(0) if isinstance(parts[0], Amount) else None

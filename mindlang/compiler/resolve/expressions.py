@@ -104,8 +104,8 @@ def _tally(tally: Tally, visible: Visible, findings: Findings) -> Term | None:
     if event and event.is_of_success:
         hint = "Leave it out: behind it nothing is counted any more."
         findings.error("misplaced-tally", tally.event.span, "A success ends the run, and is not counted in it.", hint)
-    when = resolve_expressions(tally.when, visible, findings)
-    return Term("tally", replace(tally, event=event, when=when), tally.span)
+    when, value = resolve_expressions((tally.when, tally.value), visible, findings)
+    return Term("tally", replace(tally, event=event, when=when, value=value), tally.span)
 
 
 def _refuse_unknown(term: Phrase, visible: Visible, findings: Findings) -> None:

@@ -202,12 +202,19 @@ class End:
 class Tally:
     """How often an event, by its index, has happened in a run while a condition held, or in how many ticks that held.
 
-    With `longest`, in how many one after the other at the most. Its condition may be about the tallies before it.
+    With `longest`, in how many one after the other at the most; with a `value`, the sum of that in these ticks. Its
+    programs may be about the tallies before it.
     """
 
     event: int | None
     when: Program | None = None
     longest: bool = False
+    value: Program | None = None
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """Its value and its condition, if it has them."""
+        return tuple(program for program in (self.value, self.when) if program is not None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -272,8 +279,9 @@ class Task:
     @property
     def programs(self) -> tuple[Program, ...]:
         """The programs of its rewards, its ends and its tallies."""
-        whens = (each.when for each in (*self.ends, *self.tallies) if each.when is not None)
-        return (*(program for reward in self.rewards for program in reward.programs), *whens)
+        ends = (end.when for end in self.ends if end.when is not None)
+        judging: tuple[Reward | Tally, ...] = (*self.rewards, *self.tallies)
+        return (*(program for each in judging for program in each.programs), *ends)
 
     @property
     def can_succeed(self) -> bool:

@@ -104,7 +104,7 @@ MAKING = _columns(i8="row code length")
 PRESENCE = _columns(i8="thing box boxes when whens")
 EVENT = _columns(i8="kind thing things to tos arrival columns rows board after window left", f8="patch")
 END = _columns(i8="event times when whens succeeds is_end box boxes")
-TALLY = _columns(i8="event when whens longest row")
+TALLY = _columns(i8="event when whens code length longest row")
 REWARD = _columns(i8="code length on each eachs when whens last")
 WORLD = _columns(
     i8="linear angular friction mass moment mass_inv moment_inv is_round is_placed is_faced ticks rays master battery "

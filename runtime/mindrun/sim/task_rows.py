@@ -273,6 +273,17 @@ def event_rows(task: Task) -> tuple[Array, int, int]:
     return records(rows, codes.EVENT), board, arrivals
 
 
+def first_numbers(task: Task) -> dict[str, int]:
+    """The numbers of the measures that its first tally, and the first number that it draws, are to the lanes."""
+    return {"tally": len(task.measures), "drawn": len(task.measures) + len(task.tallies)}
+
+
+def judging_rows(task: Task, programs: Programs) -> dict[str, Array]:
+    """The tables of what a task rewards, what ends it and what it tallies; their programs go to `programs`."""
+    rewards, ends = reward_rows(task, programs), end_rows(task, programs)
+    return {"rewards": rewards, "ends": ends, "tallies": tally_rows(task, programs)}
+
+
 def end_rows(task: Task, programs: Programs) -> Array:
     """Rows of END; their conditions go to `programs`."""
     rows, boxes = list[Row](), {"": NOWHERE, **boxes_by_name(task)}
@@ -292,6 +303,7 @@ def tally_rows(task: Task, programs: Programs) -> Array:
         {
             "event": -1 if tally.event is None else tally.event, "row": len(task.measures) + i,
             "longest": tally.longest, **programs.columns(tally.when, "when", "whens"),
+            **programs.columns(tally.value, "code", "length"),
         }
         for i, tally in enumerate(task.tallies)
     ]  # fmt: skip

@@ -61,14 +61,19 @@ def keep_soon(tables: Tables, state: State, i: int, lanes: int) -> int:
 @unit_where(lambda tables: len(tables.tallies) > 0)
 def keep_tallies(tables: Tables, state: State, lanes: int) -> None:
     """Add what happened in this tick to the tallies, each after those that its condition may be about."""
-    judged, holds = state.judge, state.mind.stack[0]
+    judged, values = state.judge, state.mind.stack[0]
     for i in range(len(tables.tallies)):
         tally = tables.tallies[i]
         if tally.whens > 0:
             run_program(tables, state, tally.when, tally.whens, 0, lanes, True)
         for lane in range(lanes):
-            is_open = tally.whens == 0 or holds[lane] > 0.0
-            times = 0.0 if not is_open else judged.events[tally.event, lane] if tally.event >= 0 else 1.0
+            judged.paid[lane] = 1.0 if tally.whens == 0 or values[lane] > 0.0 else 0.0
+        if tally.length > 0:
+            run_program(tables, state, tally.code, tally.length, 0, lanes, True)
+        for lane in range(lanes):
+            is_open = judged.paid[lane] > 0.0
+            times = values[lane] if tally.length > 0 else judged.events[tally.event, lane] if tally.event >= 0 else 1.0
+            times = times if is_open else 0.0
             judged.stretches[i, lane] = stretch = times + (judged.stretches[i, lane] if is_open else 0.0)
             before = judged.tallies[i, lane]
             judged.tallies[i, lane] = max(before, stretch) if tally.longest else before + times
