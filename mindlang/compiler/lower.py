@@ -111,10 +111,10 @@ def _end(end: model.End, events: dict[Any, int], places: Places) -> graph.End:
     event = None if end.event is None else _event(end.event, events)
     if end.when is None:
         return graph.End(event, end.times, None, end.succeeds, opens=end.opens)
-    text = said(end.fact.when)
-    if not text.startswith("when"):  # of a goal
-        text = GOALS_MET if end.succeeds else text
-    text = spaced(f"ends {text}").removeprefix("ends ").removeprefix("when ")
+    if said(end.fact).startswith(verb_of(end.fact)):
+        text = spaced(f"ends {said(end.fact.when)}").removeprefix("ends when ")
+    else:  # of a goal
+        text = GOALS_MET if end.succeeds else spaced(said(end.fact))
     return graph.End(event, end.times, program_of(end.when, places), end.succeeds, text, end.opens)
 
 

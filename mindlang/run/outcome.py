@@ -21,7 +21,7 @@ from mindlang.run.paired_difference import unseen_share
 TIME = "time"
 PREFERS = "prefers"
 GOAL_WORDS = ("wants", "avoids", "keeps", "then", PREFERS)  # with which the line of a goal begins
-ROUNDING = 1e-9
+LEAST_SHARE = 1 - 1e-9  # of a goal that is met, for rounding
 NOTHING = np.zeros(0)
 OTHERWISE = {LOST: "flight out of bounds", BROKEN_OFF: "its environment"}  # beyond 1e9 units, or nowhere; truncated
 
@@ -56,7 +56,7 @@ def met_goals(task: Task, scores: Scores) -> list[dict[str, Any]]:
             PREFERENCE_POINTS / len(preferred) if text in preferred else GOAL_POINTS / (len(lines) - len(preferred))
         )
         share = scores.by_line[0, :, i] / points
-        met = None if text in preferred else float((share > 1 - ROUNDING).mean())
+        met = None if text in preferred else float((share > LEAST_SHARE).mean())
         found.append({"goal": text, **_spread("", share), "met": met})
     return found
 

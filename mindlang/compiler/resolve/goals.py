@@ -40,17 +40,17 @@ def with_goals(names: Names, write: Callable[[Any], Any], tick_seconds: float, f
 
 
 def _fact(text: str, goal: Any, write: Callable[[Any], Any]) -> Fact:
-    """The fact of a line, its places those of the same words in the goal's line, or else that whole line."""
+    """The fact of a line, in the place of the goal's line, and what both say in the place that it has there."""
     at, own = goal.span, goal.span.text
 
     def placed(node: Any) -> Any:
         if not isinstance(node, Span):
             return node
         start = own.find(node.text)
-        return Span(at.source, at.start + start, at.start + start + len(node.text)) if start >= 0 else at
+        return Span(at.source, at.start + start, at.start + start + len(node.text)) if start >= 0 else node
 
     fact: Fact = write(rebuilt(parse_line(text, Source(at.source.name, text), 0, "line"), placed))
-    return replace(fact, span=goal.event.span) if text.startswith(NEAR) else fact
+    return replace(fact, span=goal.event.span if text.startswith(NEAR) else at)
 
 
 def goal_lines(task: Declaration, names: Names, tick_seconds: float, findings: Findings) -> list[Line]:

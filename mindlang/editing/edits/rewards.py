@@ -10,7 +10,7 @@ from mindlang.editing.project import EditError, MindChange, Project
 
 
 def rewards(project: Project, task: str) -> MindChange:
-    """Write out the goals of a task: what they reward, and what ends a run.
+    """Write out what the goals of a task reward, and what ends its runs.
 
     The mind stays the same, and every line can be changed.
 

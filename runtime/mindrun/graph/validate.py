@@ -180,19 +180,28 @@ def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
         yield "has an event that comes after one that is not there"
     known = range(width), len(task.measures), actuators, len(task.draws)
     yield from _tally_flaws(task, known)
-    tallies = len(task.tallies)
+    yield from _reward_flaws(task, width, known)
     in_the_way = {"", *(thing.name for thing in task.things if thing.kind.is_obstacle)}
     for end in task.ends:
         if end.opens not in in_the_way or (end.opens and end.succeeds):
             yield "opens what cannot be opened"
         if (end.event is None) == (end.when is None) or end.times < 1:
             yield "has an end that never comes"
-        if end.when is not None and not (is_condition(end.when) and _computes(end.when, *known, tallies=tallies)):
+        if end.when is not None and not (
+            is_condition(end.when) and _computes(end.when, *known, tallies=len(task.tallies))
+        ):
             yield "has an end that cannot be computed"
         if end.event is not None and task.events[end.event].is_of_success:
             yield "ends on its own success"
+
+
+def _reward_flaws(task: Task, width: int, known: tuple[range, int, int, int]) -> Iterator[str]:
+    """A reward can be computed, and only what is paid in each tick is so for each reading."""
     for reward in task.rewards:
-        if not all(_computes(program, *known, reward.each is not None, tallies) for program in reward.programs):
+        is_each, tallies = reward.each is not None, len(task.tallies)
+        if not all(_computes(program, *known, is_each, tallies) for program in reward.programs) or (
+            reward.last and is_each
+        ):
             yield "has a reward that cannot be computed"
         if reward.when is not None and not is_condition(reward.when):
             yield "has a condition that cannot be computed"
