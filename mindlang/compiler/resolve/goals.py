@@ -50,7 +50,8 @@ def _fact(text: str, goal: Any, write: Callable[[Any], Any]) -> Fact:
         return Span(at.source, at.start + start, at.start + start + len(node.text)) if start >= 0 else node
 
     fact: Fact = write(rebuilt(parse_line(text, Source(at.source.name, text), 0, "line"), placed))
-    return replace(fact, span=goal.event.span if text.startswith(NEAR) else at)
+    whole = {field: replace(of, span=at) for field in ("when", "amount") if (of := getattr(fact, field, None))}
+    return replace(fact, **whole, span=goal.event.span if text.startswith(NEAR) else at)
 
 
 def goal_lines(task: Declaration, names: Names, tick_seconds: float, findings: Findings) -> list[Line]:

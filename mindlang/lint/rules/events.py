@@ -1,6 +1,9 @@
 """What ends a task, is paid or counted."""
 
-from mindlang.compiler.syntax import Contains, Counts, of_form
+from math import ceil
+
+from mindlang.compiler.resolve.goals import GOAL_POINTS, PREFERENCE_POINTS
+from mindlang.compiler.syntax import Contains, Counts, Goal, Prefers, Wants, of_form
 from mindlang.lint.intervals import why_never
 from mindlang.lint.study import Finding, Found, Study, removal, rule, saying
 
@@ -27,6 +30,20 @@ def dead_reward(study: Study) -> Found:
                 span, message, hint = why
                 fix = removal(reward.fact, "Remove the reward")
                 yield Finding(span, f"This reward is never paid: {message}.", hint, fix=fix)
+
+
+@rule()
+def goal_quantum(study: Study) -> Found:
+    for task in study.mind.tasks:
+        goals = [fact for fact in task.facts if isinstance(fact, Goal)]
+        beside = 1 + PREFERENCE_POINTS * bool(of_form(task.facts, Prefers))
+        for fact in of_form(task.facts, Wants):
+            times = fact.times.number if fact.times else 1
+            if (points := GOAL_POINTS / len(goals) / times) <= beside:
+                message = f"One more of it is worth {points:.2g} points, and what counts less is worth {beside:g}."
+                yield Finding(
+                    fact.span, message, f"Want it at most {ceil(GOAL_POINTS / len(goals) / beside) - 1} times."
+                )
 
 
 REACHED = "reached"  # the argument that is left out
