@@ -15,6 +15,7 @@ from mindlang.compiler.resolve.kinds import Scope, make_event, make_kind
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Amount, Expression, Phrase, Tally, Term, rebuilt
 
+TALLIES = ("count", "longest", "sum")
 TRUTH = {"true": 1, "yes": 1, "false": 0, "no": 0}
 PLAIN = Quantity("a plain number", {"": 1.0, "%": 0.01})
 
@@ -131,6 +132,8 @@ def _refuse_unknown(term: Phrase, visible: Visible, findings: Findings) -> None:
         hint = findings.suggest(name, visible.readings, kinds("measure"))
         if name in kinds("event"):
             hint = f"{name} is an event, which stands after on: rewards 1 on {said}, ends on {said}."
+        if name in TALLIES:
+            hint = "What is counted in a run stands in parentheses: (count of collision)."
         hint = hint or "A reward is made of sensors, memories and measures such as forward or progress toward X."
         findings.error("unknown-measure", here, f"There is no reading or measure called {name}.", hint)
     else:

@@ -86,7 +86,7 @@ def _refused(task: Declaration, goals: Sequence[Any], names: Names, findings: Fi
     """True after reporting that a task has goals, and something beside that they cannot be with."""
     before, first, name = len(findings.diagnostics), goals[0], task.header.name.text
     for fact in (fact for fact in task.facts if isinstance(fact, INSTEAD)):
-        hint = f"Leave it out, or see what the goals reward: {first.span.source.edit('rewards', name)}."
+        hint = f"Leave it out. Then {first.span.source.edit('rewards', name)} writes out what the goals reward."
         message = f"{name} has goals, which say what is rewarded, and what is a success."
         findings.error("goals-and-rewards", fact.span, message, hint, Label(first.span, "a goal"))
     is_later = False
