@@ -23,13 +23,13 @@ from tests.draws import cases
 from tests.sim.minds import compile_text
 from tests.sim.test_tasks import SEEKER
 
-TICKS = 500
+TICKS = 700
 TASK = f"""
-task Test in arena size 40
+task Test in arena size 26
   contains object is item size 1 reached stays
   contains home is zone size 8 reached stays
   contains plug is power size 4 reached stays
-  contains rock is obstacle count 3 size 2
+  contains rock is obstacle count 2 size 2
   lasts {TICKS} ticks
 """
 NEAR_TO = {"reach of object": ("", "object"), "reach of home": ("", "home"), "delivery of object": ("object", "home")}
@@ -46,7 +46,7 @@ PREFERENCES = {
     "little charge": lambda of: of["charge"],
     "much home_bearing": lambda of: of["home_bearing"],
 }
-TIMES, SPANS = st.integers(1, 4), st.sampled_from([0, 1, 30, 200])
+TIMES, SPANS = st.integers(1, 4), st.integers(0, 300)
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ class Rows:
         return (failed - 1) / TICKS, None
 
     def judged(self, all_goals):
-        """How much of each goal is met, the ticks behind which their stages count, and that in which the last is met."""
+        """How much of each goal is met, the ticks behind which each stage counts, and that in which all is met."""
         since, shares, opened = 0, [], {}
         for stage in range(1 + max(goal.stage for goal in all_goals)):
             opened[stage] = since
@@ -150,7 +150,7 @@ def simulated(text: str) -> Rollout:
     return Rollout(Policy(compile_text(text), {}), "Test", "Seek")
 
 
-@settings(max_examples=cases(200), deadline=None)
+@settings(max_examples=cases(750), deadline=None)
 @given(goals(), st.lists(st.sampled_from([*PREFERENCES]), unique=True), st.integers(0, 999))
 def test_goals_are_worth_what_the_rows_say(all_goals: list[Goal], preferred: list[str], seed: int) -> None:
     lines = [*map(str, all_goals), *(f"prefers {each}" for each in preferred)]
