@@ -10,11 +10,11 @@ from mindlang.editing.project import EditError, MindChange, Project
 
 
 def rewards(project: Project, task: str) -> MindChange:
-    """Write out what the goals of a task reward, and what ends its runs.
+    """Write out what the goals of a task reward, line by line.
 
     The mind stays the same, and every line can be changed.
 
-    Example: mindc edit rewards collect.mind Fetch
+    Example: mindc edit rewards goals.mind Fetch
     """
     declaration = project.find(task, "task")
     resolved = next(each for each in project.mind.tasks if each.name == task)
