@@ -14,7 +14,7 @@ from typing import Any
 
 from mindrun.errors import ProcedureError
 from mindrun.graph.codec import encode
-from mindrun.graph.graph import Edge, Graph, HardLayouts, Lesson, Program, Reward, Skill, Start, Task
+from mindrun.graph.graph import Edge, Graph, HardLayouts, Lesson, Program, Reward, Skill, Start, Tally, Task
 from mindrun.graph.skill_sets import genes, reachable
 from mindrun.graph.tasks import physics
 from mindrun.kinds.environment import module_beside
@@ -209,6 +209,8 @@ class Worlds:
             match word:
                 case "measure":
                     return phrase(task.measures[int(operand)])
+                case "tally":
+                    return self._tally(task, task.tallies[int(operand)], leaf)
                 case "drawn":
                     return task.draws[int(operand)].name
                 case "command":
@@ -217,10 +219,19 @@ class Worlds:
 
         return leaf
 
+    def _tally(self, task: Task, tally: Tally, leaf: Leaf) -> str:
+        """A tally as it is written."""
+        words = ["longest" if tally.longest else "sum of" if tally.value else "count"]
+        words += [infix(tally.value, leaf)] if tally.value else []
+        words += ["of", phrase(task.events[tally.event])] if tally.event is not None else []
+        words += ["when", infix(tally.when, leaf)] if tally.when else []
+        return f"({' '.join(words)})"
+
     def _reward(self, task: Task, reward: Reward) -> Iterator[str]:
         leaf = self._leaf_of(task)
         yield infix(reward.amount, leaf)
         words = ["per tick" if reward.on is None else f"on {phrase(task.events[reward.on])}"]
+        words = ["at the end"] if reward.last else words
         if reward.each:
             words.append(f"for each p in {self._names[reward.each[0]]}")
         if reward.when is not None:

@@ -2,10 +2,12 @@
 
 from collections.abc import Iterator
 from itertools import chain
+from math import ceil
 
 from mindlang.compiler.model import End, Reward
+from mindlang.compiler.resolve.goals import GOAL_POINTS, PREFERENCE_POINTS
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Contains, Counts, expressions_in, of_form
+from mindlang.compiler.syntax import Contains, Counts, Goal, Prefers, Wants, expressions_in, of_form
 from mindlang.lint.intervals import why_never
 from mindlang.lint.study import Finding, Found, Study, removal, rule, saying
 
@@ -53,6 +55,20 @@ def _judged(line: Reward | End) -> Iterator[tuple[str, Span]]:
         yield each.sensor.text, each.sensor.span
     for expression in expressions_in(line.amount if isinstance(line, Reward) else None, line.when):
         yield from ((term.operand, term.span) for term in expression.found("reading"))
+
+
+@rule()
+def goal_quantum(study: Study) -> Found:
+    for task in study.mind.tasks:
+        goals = [fact for fact in task.facts if isinstance(fact, Goal)]
+        beside = 1 + PREFERENCE_POINTS * bool(of_form(task.facts, Prefers))
+        for fact in of_form(task.facts, Wants):
+            times = fact.times.number if fact.times else 1
+            if (points := GOAL_POINTS / len(goals) / times) <= beside:
+                message = f"One more of it is worth {points:.2g} points, and what counts less is worth {beside:g}."
+                yield Finding(
+                    fact.span, message, f"Want it at most {ceil(GOAL_POINTS / len(goals) / beside) - 1} times."
+                )
 
 
 REACHED = "reached"  # the argument that is left out

@@ -167,7 +167,7 @@ class Reward:
     """One reward line. `on` is an index into the task's events, or None for "per tick"; `when` is a condition.
 
     With `each`, a sensor's (start, width), the amount is added once for each of those readings, which the programs
-    read as ("each", 0).
+    read as ("each", 0). One that is `last` is worth what its amount is in the last tick in which it is paid.
     """
 
     text: str
@@ -175,6 +175,7 @@ class Reward:
     on: int | None
     each: tuple[int, int] | None = None
     when: Program | None = None
+    last: bool = left_out(False)
 
     @property
     def programs(self) -> tuple[Program, ...]:
@@ -196,6 +197,25 @@ class End:
     succeeds: bool = False
     text: str = ""
     opens: str = left_out("")
+
+
+@dataclass(frozen=True, slots=True)
+class Tally:
+    """How often an event, by its index, has happened in a run while a condition held, or in how many ticks that held.
+
+    With `longest`, in how many one after the other at the most; with a `value`, the sum of that in these ticks. Its
+    programs may be about the tallies before it.
+    """
+
+    event: int | None
+    when: Program | None = None
+    longest: bool = False
+    value: Program | None = None
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """Its value and its condition, if it has them."""
+        return tuple(program for program in (self.value, self.when) if program is not None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,7 +259,7 @@ class Task:
     """A task: its world, its ends, its rewards. `counts` are indices into `events`.
 
     What of the world and the robot `varies` is drawn for each run, and so is when what `fails` does, and what it
-    `draws`: programs have it as ("drawn", index).
+    `draws`: programs have it as ("drawn", index), and what it `tallies` as ("tally", index).
     """
 
     name: str
@@ -255,12 +275,14 @@ class Task:
     varies: tuple[Variation, ...] = ()
     fails: tuple[Failure, ...] = ()
     draws: tuple[Draw, ...] = left_out(())
+    tallies: tuple[Tally, ...] = left_out(())
 
     @property
     def programs(self) -> tuple[Program, ...]:
-        """The programs of its rewards and its ends."""
+        """The programs of its rewards, its ends and its tallies."""
         ends = (end.when for end in self.ends if end.when is not None)
-        return (*(program for reward in self.rewards for program in reward.programs), *ends)
+        judging: tuple[Reward | Tally, ...] = (*self.rewards, *self.tallies)
+        return (*(program for each in judging for program in each.programs), *ends)
 
     @property
     def can_succeed(self) -> bool:

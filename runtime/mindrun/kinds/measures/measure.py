@@ -54,15 +54,22 @@ class Retreat(MeasureKind):
 
 @kind("measure", "distance")
 class Apart(MeasureKind):
-    """Distance of a thing to another, from middle to middle, in world units; of several, of the two that are nearest.
+    """Distance of the robot, or of a thing, to another, from middle to middle; of several, of the two that are nearest.
 
-    0 where all of one name have vanished.
+    In world units; 0 where all of one name have vanished.
     """
 
     to: ThingName
-    of: ThingName
+    of: ThingName = left_out("")
 
     interval = (0.0, inf)
+
+
+@kind("measure", "time")
+class Time(MeasureKind):
+    """How many ticks the run has lasted, this one too: 1 in its first."""
+
+    interval = (1.0, inf)
 
 
 @kind("measure", "forward")
