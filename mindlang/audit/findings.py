@@ -21,22 +21,22 @@ from mindlang.compiler.syntax import Counts, of_form
 from mindlang.number_format import score as shown
 
 LOOPHOLE_SHARE = 0.1  # of the best score, for nothing that is counted
-NEARLY_NOTHING_SHARE = 0.02  # of the best count: as of who runs into something by chance
+NEARLY_NOTHING_SHARE = 0.05  # of the best count: as of who runs into something by chance
 TRAP_SHARE = 0.1  # of what lies between the median of what moves and the best
 FARMED_SHARE, FARMED_ONE_WAY_SHARE = 0.01, 0.0005  # of the best score; of a line that is paid and never taken back
 FELT_PAIRS_SHARE, FELT_SHARE, TIE_SHARE = 0.002, 0.01, 1e-5  # of pairs of policies; of the range of all scores
+CHAMPION_SHARE = 0.5  # of the most that anybody brings about
 SIMPLEST_FIRST = ("still", "moving", "to and fro", "skill", "found", "random")
 ROUNDING_DIGITS = 9  # behind the point, of scores that are compared
 
 
 @dataclass(frozen=True)
 class Findings:
-    """The evidence of a task held against its lines; `champion` is the master that its lesson is under."""
+    """The evidence of a task held against its lines."""
 
     of: model.Task
     task: Task
     evidence: Evidence
-    champion: str
 
     def all(self) -> list[Diagnostic]:
         """All findings, in the order of the lines."""
@@ -94,6 +94,14 @@ class Findings:
         amounts = [amount for i, amount in enumerate(self._amounts) if self._is_good(i)]
         return float(max([self.evidence.scores.max(), *amounts]))
 
+    @property
+    def champion(self) -> str:
+        """The skill that does best, if it brings about at least half as much as anybody; "" where there is none."""
+        skills = np.flatnonzero(self.evidence.of("skill") & (self.counts >= CHAMPION_SHARE * self.counts.max()))
+        if not len(skills) or not self.counts.max():
+            return ""
+        return self.evidence.origins[skills[self.evidence.scores[skills].argmax()]][0].name
+
     @cached_property
     def loophole_rows(self) -> dict[int, int]:
         """For each line with a loophole a policy that is paid most, above all by this line, and counts nothing: of
@@ -133,7 +141,7 @@ class Findings:
             share = np.mean(scores[moving] > scores[row])
             message = (
                 f"Standing still has {shown(scores[row])}, the median of what moves {shown(middle)}: {share:.0%} of "
-                "what moves does better, and this costs it most."
+                "what moves does better. This makes most of the difference."
             )
             hint = "Punish less, pay less for standing still, or begin with a lesson in which less goes wrong."
             yield self._warning("trap", self._line(int(costly.argmin())), message, hint)
@@ -145,7 +153,7 @@ class Findings:
             return
         more = self.evidence.lines[rows[0]] - self.evidence.lines[still[0]]
         for line, reward in enumerate(self.task.rewards):
-            gained = min(more[line], float(more[more > 0].sum() + more[more < 0].sum()))
+            gained = min(more[line], self.evidence.lines[rows[0], line], float(more.sum()))
             least = FARMED_ONE_WAY_SHARE if self._is_one_way(line) else FARMED_SHARE
             if reward.on is None and line not in self.loophole_rows and gained >= least * self.best:
                 message = f"This pays {shown(more[line], 3)} more to who goes to and fro than to who stands still."
@@ -154,9 +162,9 @@ class Findings:
 
     def never(self) -> Iterator[Diagnostic]:
         """Lines that paid nobody, and what nobody brought about, though who was taught is among those tried."""
-        if not any(probe.group == "skill" and probe.name == self.champion for probe, _ in self.evidence.origins):
+        if not (champion := self.champion):
             return
-        who = f"none of {len(self.evidence.scores)} policies, {self.champion} as it was taught among them"
+        who = f"none of {len(self.evidence.scores)} policies, {champion} as it was taught among them"
         for line in np.flatnonzero(~self.evidence.lines.any(axis=0)):
             hint = "Take it out, or pay for something that happens."
             yield self._warning("never-paid", self._line(int(line)), f"This paid {who}.", hint)
@@ -177,7 +185,7 @@ class Findings:
         whole, width = order(scores), float(np.ptp(scores))
         for line, paid in enumerate(self.evidence.lines.T):
             share = float(np.ptp(paid)) / width if width else 0.0
-            if not paid.any() or len(self.task.rewards) == 1 or share >= FELT_SHARE:
+            if not paid.any() or len(self.task.rewards) == 1 or share >= FELT_SHARE or line in self.loophole_rows:
                 continue
             if share < TIE_SHARE or np.mean(whole != order(scores - paid)) < FELT_PAIRS_SHARE:
                 spreads = np.ptp(self.evidence.lines, axis=0)

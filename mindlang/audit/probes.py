@@ -27,7 +27,7 @@ from mindlang.run.setup import NO_GENOME, layouts
 Group = Literal["still", "moving", "to and fro", "random", "skill", "found"]
 Values = NDArray[np.float64]
 
-PROBE = "audit probe"  # a name that no declaration can have
+PROBE, TURN = "AuditProbe", "audit_turn"  # a skill and a memory, which no mind has by these names
 RUNS, OUTSIDE_RUNS = 40, 3  # layouts; of a world that is an environment, which is slow
 RANDOM, OUTSIDE_RANDOM = 200, 20  # genomes
 RANDOM_TICKS = 40_000_000  # of all genomes together, which see fewer layouts where a run is long
@@ -230,7 +230,7 @@ def _driven(policy: Policy, commands: Sequence[float], period: int = 0) -> Polic
         else:
             edges.append(Edge("actuator", i, None, program))
     if period:
-        memories = (*memories, Memory(PROBE, Cell(decay=0.0), graph.width))
+        memories = (*memories, Memory(TURN, Cell(decay=0.0), graph.width))
         more: Program = (("reading", graph.width), ("number", 1.0 / period), ("+", 0))
         last = 1.0 - 1.5 / period
         edges.append(

@@ -113,7 +113,7 @@ def _audited(
 ) -> "Findings":
     """A task that was audited; `how` are the seed, the seconds of the search, and the workers."""
     from mindlang.audit.findings import Findings
-    from mindlang.audit.probes import learning_probe, probes_of, tried
+    from mindlang.audit.probes import probes_of, tried
     from mindlang.audit.search import search
     from mindlang.cli._session import ensure_compiled
 
@@ -123,11 +123,11 @@ def _audited(
     with session.counting(f"{task.name}: probes", sum(len(each.genomes) for each in probes)) as told:
         evidence = tried(_counted(probes, told), task, folder, seed, workers, ready)
     of = next(each for each in compiled.whole[0].tasks if each.name == task.name)
-    found = Findings(of, task, evidence, learning_probe(policy, task).master)
+    found = Findings(of, task, evidence)
     if seconds and found.is_counted:
         with session.counting(f"{task.name}: search", seconds) as told:
             more = search(found, policy, folder, seed, seconds, workers, ready, told)
-        found = found if more is None else Findings(of, task, evidence + more, found.champion)
+        found = found if more is None else Findings(of, task, evidence + more)
     return found
 
 
