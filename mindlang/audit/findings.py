@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from mindrun.graph.graph import Task
 from mindrun.graph.run_scores import Scores
-from mindrun.kinds.events.event import Success
+from mindrun.kinds.events.event import Collision, Success
 from mindrun.kinds.registry import phrase
 from mindrun.numbers.expression import leaves
 from mindrun.train.scoring import succeeded
@@ -50,7 +50,7 @@ class Findings:
         """
         ends = {end.event for end in self.task.ends if not end.succeeds and not end.opens}
         paid = {reward.on: amount for reward, amount in zip(self.task.rewards, self._amounts, strict=True)}
-        bad = ends | {event for event, amount in paid.items() if event is not None and amount < 0}
+        bad = self._collisions | ends | {event for event, amount in paid.items() if event is not None and amount < 0}
         counted = tuple(event for event in self.task.counts if event not in bad)
         if counted or self.task.can_succeed:
             return counted
@@ -75,7 +75,7 @@ class Findings:
     def price(self) -> float:
         """The largest score that any policy has for one of what is counted; the best score where nobody counts any."""
         some = self.counts > 0
-        return max(self.best, 1.0, *(self.evidence.scores[some] / self.counts[some]))
+        return float(max(self.best, 1.0, *(self.evidence.scores[some] / self.counts[some])))
 
     @cached_property
     def free(self) -> Values:
@@ -100,7 +100,7 @@ class Findings:
         skills = np.flatnonzero(self.evidence.of("skill") & (self.counts >= CHAMPION_SHARE * self.counts.max()))
         if not len(skills) or not self.counts.max():
             return ""
-        return self.evidence.origins[skills[self.evidence.scores[skills].argmax()]][0].name
+        return str(self.evidence.origins[skills[self.evidence.scores[skills].argmax()]][0].name)
 
     @cached_property
     def loophole_rows(self) -> dict[int, int]:
@@ -112,7 +112,7 @@ class Findings:
             lines = self.evidence.lines.copy()
             lines[:, [i for i in range(len(self.task.rewards)) if self._is_good(i)]] = -np.inf
             payer = lines.argmax(axis=1)
-            simple = [SIMPLEST_FIRST.index(probe.group) for probe, _ in self.evidence.origins]
+            simple = np.array([SIMPLEST_FIRST.index(probe.group) for probe, _ in self.evidence.origins])
             for row in np.lexsort((simple, -np.floor(self.free / (LOOPHOLE_SHARE * self.best)))):
                 if self.idle[row] and self.free[row] >= LOOPHOLE_SHARE * self.best and lines[row, payer[row]] > 0:
                     found.setdefault(int(payer[row]), int(row))
@@ -217,6 +217,10 @@ class Findings:
             return False
         ends = (end.event for end in self.task.ends if end.succeeds)
         return on in ends or isinstance(self.task.events[on], Success)
+
+    @property
+    def _collisions(self) -> set[int | None]:
+        return {i for i, event in enumerate(self.task.events) if isinstance(event, Collision)}
 
     def _is_good(self, line: int) -> bool:
         return self.task.rewards[line].on in self.goods or self._is_of_success(line)

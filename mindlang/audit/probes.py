@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import product
 from pathlib import Path
 from typing import Literal
@@ -28,13 +29,13 @@ Group = Literal["still", "moving", "to and fro", "random", "skill", "found"]
 Values = NDArray[np.float64]
 
 PROBE, TURN = "AuditProbe", "audit_turn"  # a skill and a memory, which no mind has by these names
-RUNS, OUTSIDE_RUNS = 40, 3  # layouts; of a world that is an environment, which is slow
-RANDOM, OUTSIDE_RANDOM = 200, 20  # genomes
+PROBE_RUNS, OUTSIDE_RUNS = 40, 3  # layouts; of a world that is an environment, which is slow
+RANDOM_GENOMES, OUTSIDE_GENOMES = 200, 20  # genomes
 RANDOM_TICKS = 40_000_000  # of all genomes together, which see fewer layouts where a run is long
 MIN_LAYOUTS = 4
 MAX_CORNERS = 27  # three commands of three actuators
 OFF_NEUTRAL = 0.01  # command: as of 2 % of a wheel's thrust
-ARC = 0.05  # command: less of one actuator than of all others
+ARC_COMMAND = 0.05  # command: less of one actuator than of all others
 TO_AND_FRO_TICKS = 50  # there and back
 
 
@@ -129,7 +130,7 @@ def tried(
 
 def probe_layouts(task: Task, probe: Probe, seed: int) -> list[int]:
     """The seeds of a probe's runs: the same for all, the first of them where there are many genomes."""
-    most = OUTSIDE_RUNS if task.scene.environment else RUNS
+    most = OUTSIDE_RUNS if task.scene.environment else PROBE_RUNS
     fewer = RANDOM_TICKS // (len(probe.genomes) * task.ticks)
     return layouts(seed, most)[: most if len(probe.genomes) == 1 else max(MIN_LAYOUTS, fewer)]
 
@@ -148,9 +149,9 @@ def skill_probes(policy: Policy) -> Iterator[Probe]:
             yield Probe(skill.name, "skill", _under(policy, skill.name))
 
 
-def random_probes(policy: Policy, task: Task, seed: int, count: int = RANDOM) -> Iterator[Probe]:
+def random_probes(policy: Policy, task: Task, seed: int, count: int = RANDOM_GENOMES) -> Iterator[Probe]:
     """Random genomes of what the task's first lesson teaches, and of all that has no weights below its master."""
-    count = min(count, OUTSIDE_RANDOM) if task.scene.environment else count
+    count = min(count, OUTSIDE_GENOMES) if task.scene.environment else count
     if (found := learning_probe(policy, task)).learners:
         rng = np.random.default_rng(seed)
         skills = {skill.name: skill for skill in policy.graph.skills}
@@ -203,11 +204,23 @@ def _commands(graph: Graph, rest: Sequence[float]) -> Iterator[tuple[float, ...]
     else:
         for i, level in enumerate(levels):
             yield from ((*rest[:i], value, *rest[i + 1 :]) for value in level)
-        yield from (with_moving(lambda i, value=value: value) for value in (0.0, 1.0))
+        yield from (with_moving(partial(_same, value)) for value in (0.0, 1.0))
     for off in (OFF_NEUTRAL, -OFF_NEUTRAL):
-        yield with_moving(lambda i, off=off: min(1.0, max(0.0, rest[i] + off)))
+        yield with_moving(partial(_moved, rest, off))
     for aside in moving if len(moving) > 1 else ():
-        yield with_moving(lambda i, aside=aside: 1.0 - ARC * (i == aside))
+        yield with_moving(partial(_arc, aside))
+
+
+def _same(value: float, actuator: int) -> float:
+    return value
+
+
+def _moved(rest: Sequence[float], off: float, actuator: int) -> float:
+    return min(1.0, max(0.0, rest[actuator] + off))
+
+
+def _arc(aside: int, actuator: int) -> float:
+    return 1.0 - ARC_COMMAND * (actuator == aside)
 
 
 def _under(policy: Policy, master: str) -> Policy:

@@ -19,7 +19,7 @@ NAME_COLUMNS, LINE_COLUMNS = 30, 26
 
 
 @dataclass(frozen=True, slots=True)
-class Policy:
+class Row:
     """A policy that was tried, as a row of a report: the line that pays it most, and how much."""
 
     name: str
@@ -39,20 +39,20 @@ def audit_data(found: Findings, seed: int) -> dict[str, Any]:
     return {
         "task": found.task.name,
         "seed": seed,
-        "policies": [{name: getattr(each, name) for name in Policy.__slots__} for each in rows],
+        "policies": [{name: getattr(each, name) for name in Row.__slots__} for each in rows],
         "lines": sums,
         "is_counted": found.is_counted,
     }
 
 
-def row(found: Findings, number: int) -> Policy:
+def row(found: Findings, number: int) -> Row:
     """A policy as a row."""
     probe, genome = found.evidence.origins[number]
     paid = found.evidence.lines[number]
     most = int(paid.argmax())
     name = f"{probe.name} {genome + 1}" if len(probe.genomes) > 1 else probe.name
     count = float(found.counts[number])
-    return Policy(
+    return Row(
         name,
         probe.group,
         finite(found.evidence.scores[number]),
@@ -84,7 +84,7 @@ def audit_table(found: Findings) -> RenderableType:
     return Rows(table, *([] if found.is_counted else [Text(note, "dim")]))
 
 
-def _chosen(found: Findings) -> Iterator[Policy]:
+def _chosen(found: Findings) -> Iterator[Row]:
     order = np.argsort(-found.evidence.scores, kind="stable")
     for group, most in SHOWN.items():
         of = [number for number in order if found.evidence.of(group)[number]]

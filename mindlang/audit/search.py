@@ -16,8 +16,8 @@ from mindlang.audit.findings import Findings
 from mindlang.audit.probes import Evidence, evidence, learning_probe, probe_layouts
 
 TICKS_PER_SECOND = 5_000_000  # of an idle core: a search is as long as it says there, and the same anywhere
-KEPT = 4  # genomes of the last generation that are tried on the layouts of the probes
-ATTEMPT = 1
+KEPT_GENOMES = 4  # genomes of the last generation that are tried on the layouts of the probes
+ATTEMPT_NUMBER = 1
 
 
 def search(
@@ -45,13 +45,13 @@ def search(
     population, none = empty_population(rollout.genome_length), np.empty((0, rollout.genome_length), np.float32)
     price, spent = found.price, 0
     while spent < seconds * TICKS_PER_SECOND:
-        rng = breeding_generator(seed, ATTEMPT, population.generation)
+        rng = breeding_generator(seed, ATTEMPT_NUMBER, population.generation)
         genomes = ask(population, learner, none, rollout.draw, rng)
-        scores = rollout.score(genomes, layouts(seed, ATTEMPT, population.generation, learner.layouts).tolist())
+        scores = rollout.score(genomes, layouts(seed, ATTEMPT_NUMBER, population.generation, learner.layouts).tolist())
         population = tell(population, learner, none, genomes, marks_of(scores).scores - price * found.counted(scores))
         spent += int(scores.ticks.sum())
         told(int(scores.ticks.sum()) / TICKS_PER_SECOND)
-    best = population.genomes[order(worst_if_nan(population.scores))[:KEPT]]
+    best = population.genomes[order(worst_if_nan(population.scores))[:KEPT_GENOMES]]
     probe = replace(learning, name="found", group="found", genomes=best)
     seeds = probe_layouts(task, replace(probe, genomes=best[:1]), seed)
     return evidence(task, probe, rollout.score(best, seeds))
