@@ -106,6 +106,8 @@ def test_weights_are_put_beside_a_graph_in_few_places() -> None:
         "mindlang/view/learning.py": "a run has those of its mind, which is arranged",
         "runtime/mindrun/graph/bundle.py": "a bundle has both, sealed",
         "runtime/mindrun/sim/commanded_lanes.py": "none",
+        "mindlang/audit/probes.py": "those of the audited mind, to which a skill without any is added",
+        "mindlang/cli/audit.py": "arranged there",
         "mindlang/environments/episodes.py": "none",
         "mindlang/physics_check.py": "none",
         "mindlang/environments/live_view.py": "those of an agent, but for the skill that a program plays",
