@@ -37,6 +37,12 @@ sensor decoy_g is bearing of faraway
 sensor decoy_h is inertial noise 40%
 sensor decoy_i is inertial noise 100%
 sensor decoy_j is bearing of nowhere noise 50%
+
+task Elsewhere in plain
+  contains elsewhere is zone size 5
+  contains faraway is zone size 5
+  contains nowhere is item
+  lasts 100 ticks
 """
 NEEDED = {  # sets of names of which each has to be among what is read and influenced
     "GoToObject": [{"object_bearing"}],
@@ -143,9 +149,8 @@ def main() -> None:
                         print(f"  {name}: " + ", ".join(f"{k} {a:+.1f} ± {b:.1f}" for k, (a, b) in worth.items()))
                     print("  probes: " + ", ".join(f"{k} {v:.1f}" for k, v in found.probes.items()))
                     for candidate, generations, score in found.tried:
-                        print(
-                            f"    {generations:3} {score:9.1f} {candidate.way} {candidate.origin} {candidate.reads} {candidate.subskills}"
-                        )
+                        told = candidate.way, candidate.origin, *candidate.reads, "→", *candidate.subskills
+                        print(f"    {generations:3} {score:9.1f}", *told)
 
 
 if __name__ == "__main__":

@@ -84,8 +84,7 @@ def _stage(file: str, task: str, skill: str | None, seed: int, workers: int) -> 
         project.refuse_taken("skill", name)
     except EditError as error:
         terminal.fail(str(error), "mindc propose … --skill NAME says another.", terminal.MISUSE)
-    curricula = {declaration for declaration in project.names.table.get("curriculum", {})}
-    curriculum = name if name not in curricula else f"Teach{name}"
+    curriculum = name if name not in project.names.table.get("curriculum", {}) else f"Teach{name}"
     known = known_of(compiled, chosen.name)
     path = Path(file).resolve()
     return Stage(

@@ -11,13 +11,15 @@ from typing import Literal
 from mindrun.graph.graph import Graph
 from mindrun.kinds.sensors.sensor import SensorKind
 
+from mindlang.compiler.model import Task
 from mindlang.propose.static import Known
 
 Way = Literal["nothing", "unchanged", "like", "from", "master", "scratch"]
 WIDEST_MASTER = 6  # taught skills of which all pairs are tried
 BIAS = "bias"
 LEARNER = "genetic population 50 octaves 2"
-LESSON = "founders 3000 short 7%"
+FOUNDER_TICKS, MOST_FOUNDERS = 30_000_000, 3000  # random genomes that a lesson begins with, fewer for long runs
+SHORT = "short 7%"
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,17 +78,18 @@ class Candidate:
         )
         return [*bias, *held]
 
-    def curriculum(self, skill: str, task: str, name: str, generations: int) -> list[str]:
+    def curriculum(self, skill: str, task: Task, name: str, generations: int) -> list[str]:
         """The lines of its lesson; none where it learns nothing."""
         if not self.learns:
             return []
-        begins, first = (f"from {self.origin}", "short 7%") if self.origin else ("from scratch", LESSON)
-        lesson = f"  teaches {skill} on {task} for {generations} generations {first} {begins}"
+        founders = min(MOST_FOUNDERS, max(100, FOUNDER_TICKS // task.ticks))
+        begins = f"{SHORT} from {self.origin}" if self.origin else f"founders {founders} {SHORT} from scratch"
+        lesson = f"  teaches {skill} on {task.name} for {generations} generations {begins}"
         return [f"curriculum {name} is {LEARNER}", lesson]
 
 
 def like_candidates(known: Known, able: Sequence[str]) -> Iterator[Candidate]:
-    """Each taught skill with what it reads of one thing exchanged for what the mind has for one of the task's things."""
+    """Each taught skill with what it reads of one thing exchanged for what there is of one of the task's things."""
     kinds = {part.name: part.kind for part in known.mind.sensors}
     for name in able:
         skill = known.skills[name]

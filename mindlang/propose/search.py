@@ -45,6 +45,7 @@ class Search:
 
     @property
     def known(self) -> Known:
+        """What is known of the task."""
         return self.stage.known
 
     def find(self) -> Proposal:
@@ -58,9 +59,9 @@ class Search:
         gains = {name: self._gain_of(nothing, trial) for name, trial in zip(names, probes, strict=True)}
         settled = max([nothing, *probes, *likes], key=lambda trial: trial.score)
         learning = started(self.stage, learning_candidates(self.known, names, gains))
-        if finalists := self.race(learning):
-            if settled is nothing or is_surely_better(finalists[0], settled):
-                settled = self.prune(self.grow(finalists[0], names))
+        finalists = self.race(learning)
+        if finalists and (settled is nothing or is_surely_better(finalists[0], settled)):
+            settled = self.prune(self.grow(finalists[0], names))
         return Proposal(settled, nothing.score, probed, self.tried, self.worth, self.refused, self.ticks)
 
     def race(self, trials: Sequence[Trial]) -> list[Trial]:
@@ -86,11 +87,11 @@ class Search:
     def grow(self, base: Trial, able: Sequence[str]) -> Trial:
         """The winner with more readings or one more subskill, as long as that is surely better."""
         for _ in range(MOST_ADDED):
-            candidates = {what: each for what, each in _larger(self.known, base.candidate, able)}
+            candidates = dict(_larger(self.known, base.candidate, able))
             if not candidates:
                 break
             found = self.race(started(self.stage, [*candidates.values()]))
-            names = {each: what for what, each in ((what, _key(each)) for what, each in candidates.items())}
+            names = {_key(each): what for what, each in candidates.items()}
             for each in found:
                 self.refused[names[_key(each.candidate)]] = gain(base.scores[base.best], each.scores[each.best])
             if not found or not is_surely_better(found[0], base):

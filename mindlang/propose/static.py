@@ -72,9 +72,7 @@ def known_of(compiled: Compiled, task: str) -> Known:
     said = readings(*found.facts)
     about = {name for name in changing if closing.senses.get(name, frozenset()) & world.things}
     needs_claw = _needs_claw(found, world, without, said)
-    felt = tuple(
-        part.name for part in mind.actuators if not part.kind.is_light and (needs_claw or not part.kind.can_hold)
-    )
+    felt = [part for part in mind.actuators if not part.kind.is_light and (needs_claw or not part.kind.can_hold)]
     return Known(
         found,
         mind,
@@ -83,7 +81,7 @@ def known_of(compiled: Compiled, task: str) -> Known:
         {name: 0.5 if value is None else value for name, value in constants.items()},
         world.things,
         frozenset(about | (said & {*changing})),
-        felt,
+        tuple(part.name for part in felt),
         needs_claw,
     )
 

@@ -107,7 +107,7 @@ class Stage:
         return [
             *candidate.sensors(self.known),
             *candidate.skill(self.skill, remarks),
-            *candidate.curriculum(self.skill, self.task, self.curriculum, GENERATIONS),
+            *candidate.curriculum(self.skill, self.known.task, self.curriculum, GENERATIONS),
         ]
 
     def graph_of(self, candidate: Candidate) -> Graph | None:
