@@ -19,7 +19,7 @@ WIDEST_MASTER = 6  # taught skills of which all pairs are tried
 BIAS = "bias"
 LEARNER = "genetic population 50 octaves 2"
 FOUNDER_TICKS, MOST_FOUNDERS = 30_000_000, 3000  # random genomes that a lesson begins with, fewer for long runs
-SHORT = "short 7%"
+SHORT, LEAST_TICKS = 0.07, 700  # the share of a run with which a lesson begins, and how long that is at least
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,8 +83,10 @@ class Candidate:
         if not self.learns:
             return []
         founders = min(MOST_FOUNDERS, max(100, FOUNDER_TICKS // task.ticks))
-        begins = f"{SHORT} from {self.origin}" if self.origin else f"founders {founders} {SHORT} from scratch"
-        lesson = f"  teaches {skill} on {task.name} for {generations} generations {begins}"
+        short = max(SHORT, LEAST_TICKS / task.ticks)
+        begins = f"from {self.origin}" if self.origin else f"founders {founders} from scratch"
+        shorter = f" short {100 * short:.0f}%" if short < 1 else ""
+        lesson = f"  teaches {skill} on {task.name} for {generations} generations{shorter} {begins}"
         return [f"curriculum {name} is {LEARNER}", lesson]
 
 
@@ -187,7 +189,7 @@ def master_over(known: Known, able: Sequence[str], skills: Sequence[str]) -> Can
 def from_candidate(known: Known, name: str) -> Candidate:
     """A skill that begins with the weights of another, and reads what the task's words are about besides."""
     own = known.skills[name]
-    reads = tuple(each for each in known.changing if each in known.named or each in own.reads)
+    reads = (*own.reads, *(each for each in known.changing if each in known.named and each not in own.reads))
     sends = tuple(edge.fact.span.text for edge in own.edges)
     return Candidate("from", reads, sends, name, function_of(known.graph, name))
 
