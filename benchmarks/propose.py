@@ -9,21 +9,21 @@ import argparse
 import shutil
 import tempfile
 import time
-from collections.abc import Sequence
-from contextlib import nullcontext
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 
 from mindrun.sim.rollout import Rollout
 
 from mindlang.compiler.compile import load
 from mindlang.compiler.hierarchy import with_ancestors
-from mindlang.compiler.splice import spliced
+from mindlang.compiler.splice import Splice, spliced
 from mindlang.compiler.syntax import Master, Teaches, of_form
 from mindlang.editing.insertion import replace_span, without_declarations, without_fact
 from mindlang.propose.candidates import BIAS, Candidate, function_of
 from mindlang.propose.search import FINAL_ATTEMPTS, Proposal, propose
 from mindlang.propose.static import known_of
-from mindlang.propose.trial import GENERATIONS, Stage
+from mindlang.propose.trial import LESSON_GENERATIONS, Stage
 
 COLLECT = Path(__file__).parents[1] / "examples/collect"
 DECOYS = """\
@@ -62,7 +62,7 @@ def hidden(folder: Path, skill: str, decoys: bool, without: Sequence[str] = ()) 
     path = folder / ("power.mind" if skill == "GoToPower" else "collect.mind")
     mind, _ = load(path).whole
     gone = with_ancestors(mind.influences, [skill, *without])
-    main, splices = mind.files[0], []
+    main, splices = mind.files[0], list[Splice]()
     for each in main.declarations:
         if each.header.noun.text == "skill" and each.header.name.text in gone:
             splices += without_declarations([each])
@@ -96,9 +96,8 @@ def answer(stage: Stage, candidate: Candidate) -> tuple[set[str], set[str]]:
     if candidate.way not in ("like", "unchanged"):
         return {*candidate.reads} - {BIAS}, {*candidate.subskills}
     own = stage.known.skills[candidate.origin]
-    swaps = dict(reversed(line.split(" for ")) for line in (*candidate.reads, *(
-        line.removeprefix("influences ") for line in candidate.sends
-    )))  # fmt: skip
+    lines = (*candidate.reads, *(line.removeprefix("influences ") for line in candidate.sends))
+    swaps = {old: new for new, _, old in (line.partition(" for ") for line in lines)}
     return {swaps.get(name, name) for name in own.reads}, {swaps.get(name, name) for name in own.subskills}
 
 
@@ -111,8 +110,35 @@ def declared_score(task: str, path: Path, stage: Stage) -> float:
     base = Candidate("scratch", skill.reads, sends, function=function_of(graph, task))
     trial = stage.begin(base)
     assert trial
-    stage.teach(trial, GENERATIONS, FINAL_ATTEMPTS)
+    stage.teach(trial, LESSON_GENERATIONS, FINAL_ATTEMPTS)
     return trial.score
+
+
+def measure(task: str, seed: int, said: argparse.Namespace) -> None:
+    """Print what is proposed for a task whose skill is hidden, and how it stands beside the answer."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = hidden(Path(folder), task, said.decoys, said.without)
+        began, cpu = time.perf_counter(), time.process_time()
+        stage, found = proposal(path, task, seed, said.workers)
+        wall, cpu = time.perf_counter() - began, time.process_time() - cpu
+        winner, declared = found.winner, declared_score(task, path, stage)
+    reads, influences = answer(stage, winner.candidate)
+    recall = sum(bool(each & (reads | influences)) for each in NEEDED[task]) / len(NEEDED[task])
+    mind, _ = load(COLLECT / path.name).whole
+    known = {*next(each.reads for each in mind.skills if each.name == task)}
+    needless = reads - known - OPTIONAL.get(task, set())
+    print(
+        f"{task} seed {seed}: {winner.candidate.way} {winner.candidate.origin} {sorted(reads)} {sorted(influences)}: "
+        f"recall {recall:.2f}, needless {sorted(needless)}, score {winner.score:.1f}, {winner.score / declared:.2f} of "
+        f"declared, {wall:.0f} s, {cpu:.0f} s CPU, {found.ticks / 1e6:.0f} M ticks",
+        flush=True,
+    )
+    if said.all:
+        for name, worth in (("worth", found.worth), ("refused", found.refused)):
+            print(f"  {name}: " + ", ".join(f"{what} {a:+.1f} ± {b:.1f}" for what, (a, b) in worth.items()))
+        print("  probes: " + ", ".join(f"{name} {score:.1f}" for name, score in found.probes.items()))
+        for each, generations, score in found.tried:
+            print(f"    {generations:3} {score:9.1f}", each.way, each.origin, *each.reads, "→", *each.subskills)
 
 
 def main() -> None:
@@ -122,35 +148,12 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--decoys", action="store_true")
+    parser.add_argument("--all", action="store_true", help="print all candidates")
     parser.add_argument("--without", action="append", default=[], help="hide this skill as well")
     said = parser.parse_args()
     for task in said.tasks:
         for seed in range(said.first, said.first + said.seeds):
-            with tempfile.TemporaryDirectory() as folder:
-                path = hidden(Path(folder), task, said.decoys, said.without)
-                began, cpu = time.perf_counter(), time.process_time()
-                stage, found = proposal(path, task, seed, said.workers)
-                wall, cpu = time.perf_counter() - began, time.process_time() - cpu
-                reads, influences = answer(stage, found.winner.candidate)
-                recall = sum(bool(each & (reads | influences)) for each in NEEDED[task]) / len(NEEDED[task])
-                mind, _ = load(COLLECT / path.name).whole
-                declared = {*next(each.reads for each in mind.skills if each.name == task)}
-                needless = reads - declared - OPTIONAL.get(task, set())
-                ratio = found.winner.score / declared_score(task, path, stage)
-                print(
-                    f"{task} seed {seed}: {found.winner.candidate.way} {found.winner.candidate.origin} "
-                    f"{sorted(reads)} {sorted(influences)}: recall {recall:.2f}, needless {sorted(needless)}, "
-                    f"score {found.winner.score:.1f}, {ratio:.2f} of declared, {wall:.0f} s, {cpu:.0f} s CPU, "
-                    f"{found.ticks / 1e6:.0f} M ticks",
-                    flush=True,
-                )
-                if said.seeds == 1:
-                    for name, worth in (("worth", found.worth), ("refused", found.refused)):
-                        print(f"  {name}: " + ", ".join(f"{k} {a:+.1f} ± {b:.1f}" for k, (a, b) in worth.items()))
-                    print("  probes: " + ", ".join(f"{k} {v:.1f}" for k, v in found.probes.items()))
-                    for candidate, generations, score in found.tried:
-                        told = candidate.way, candidate.origin, *candidate.reads, "→", *candidate.subskills
-                        print(f"    {generations:3} {score:9.1f}", *told)
+            measure(task, seed, said)
 
 
 if __name__ == "__main__":

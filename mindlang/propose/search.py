@@ -1,7 +1,8 @@
 """The search for a skill that does a task: probes, candidates, successive halving, growth, and ablation.
 
-A candidate is worth more than a simpler one only where it is surely better: even the worse of its two attempts beats
-the better of the other's by more than two standard errors, on common layouts.
+A candidate takes the place of a simpler one only where it is surely better: even the middle one of its three attempts
+beats the best of the other's by more than two standard errors, on common layouts. A simpler one takes its place where
+the best of its attempts is as good.
 """
 
 from collections.abc import Iterator, Sequence
@@ -9,10 +10,19 @@ from dataclasses import dataclass, field, replace
 
 from mindlang.propose.candidates import BIAS, Candidate, learning_candidates, like_candidates, master_over
 from mindlang.propose.static import Known
-from mindlang.propose.trial import GENERATIONS, STANDARD_ERRORS, Stage, Trial, gain, is_surely_better, started
+from mindlang.propose.trial import (
+    LESSON_GENERATIONS,
+    STANDARD_ERRORS,
+    Stage,
+    Trial,
+    gain,
+    is_better,
+    is_surely_better,
+    started,
+)
 
-RUNGS = ((6, 8), (20, 4), (GENERATIONS, 2))  # generations of all, and how many go on from there
-FINAL_ATTEMPTS = 2
+RUNGS = ((6, 8), (20, 4), (LESSON_GENERATIONS, 2))  # generations of all, and how many go on from there
+FINAL_ATTEMPTS = 3
 MOST_ADDED = 3  # rounds in which something is added
 
 
@@ -21,7 +31,8 @@ class Proposal:
     """What came of the search: the winner, what nothing has, and the evidence.
 
     `probes` have the score of each skill as it is, `tried` that of each candidate where it ended, with the generations
-    it had; `added` and `dropped` what was tried beside the winner: how much it gains or costs, ± its standard error.
+    it had. `worth` is what the winner has by a reading or a subskill, `refused` what it would have by one more, each ±
+    its standard error.
     """
 
     winner: Trial
@@ -68,7 +79,7 @@ class Search:
         """Successive halving: all are taught a little, the best go on; the last have two attempts. The best first."""
         running = [*trials]
         for generations, count in RUNGS:
-            attempts = FINAL_ATTEMPTS if generations == GENERATIONS else 1
+            attempts = FINAL_ATTEMPTS if generations == LESSON_GENERATIONS else 1
             if attempts > 1:
                 running = running[:count]
             with self.stage.counting(f"{len(running)} candidates, {generations} generations", len(running)) as told:
@@ -81,7 +92,7 @@ class Search:
             kept = running[:count]
             self.tried += [(each.candidate, generations, each.score) for each in running[len(kept) :]]
             running = kept
-        self.tried += [(each.candidate, GENERATIONS, each.score) for each in running]
+        self.tried += [(each.candidate, LESSON_GENERATIONS, each.score) for each in running]
         return running
 
     def grow(self, base: Trial, able: Sequence[str]) -> Trial:
@@ -102,28 +113,39 @@ class Search:
         return base
 
     def prune(self, base: Trial) -> Trial:
-        """The winner without the readings that cost nothing when they are held at their means, if it is as good."""
-        held = self._costs(base)
-        idle, together = list[str](), [name for name in held if name != BIAS]
-        for name in together:
-            if len(idle) + 1 == len(base.candidate.reads):
-                break
-            tried = self.stage.holding(base, [*idle, name], self.stage.means(base))
-            mean, error = gain(tried, base.scores[base.best])
-            if mean <= STANDARD_ERRORS * error:
-                idle.append(name)
-        for names in ([*idle], [BIAS]):
-            smaller = base.candidate
-            for name in names:
-                smaller = smaller.without(name)
-            if smaller == base.candidate or not smaller.reads:
-                continue
-            again = self.race(started(self.stage, [smaller]))
-            if again and not is_surely_better(base, again[0]):
-                self.refused |= {name: held[name] for name in names if name in held}
-                base = again[0]
-        self.worth |= {name: held[name] for name in base.candidate.reads if name in held and name not in self.worth}
+        """The winner without readings that cost nothing when they are held at their means, if it is as good.
+
+        Where it is not without all of these, then perhaps without the half of them that cost least.
+        """
+        idle = self._idle(base)
+        while idle and (smaller := self._without(base, idle)) is base:
+            idle = idle[: len(idle) // 2]
+        base = self._without(smaller if idle else base, [BIAS])
+        self.worth |= {name: cost for name, cost in self._costs(base).items() if name not in self.worth}
         return base
+
+    def _without(self, base: Trial, names: Sequence[str]) -> Trial:
+        """The winner without some readings, taught again; itself where it is better than that."""
+        smaller = base.candidate
+        for name in names:
+            smaller = smaller.without(name)
+        if smaller == base.candidate or not smaller.reads:
+            return base
+        again = self.race(started(self.stage, [smaller]))
+        if not again or is_better(base, again[0]):
+            return base
+        self.refused |= dict.fromkeys(names, gain(again[0].scores[again[0].best], base.scores[base.best]))
+        return again[0]
+
+    def _idle(self, base: Trial) -> list[str]:
+        """The readings that cost nothing when all of them are held at their means, those that cost least first."""
+        means, costs, idle = self.stage.means(base), self._costs(base), list[str]()
+        for name in costs:
+            if len(idle) + 1 < len(costs):  # one is left
+                mean, error = gain(self.stage.holding(base, [*idle, name], means), base.scores[base.best])
+                if mean <= STANDARD_ERRORS * error:
+                    idle.append(name)
+        return idle
 
     def _costs(self, base: Trial) -> dict[str, tuple[float, float]]:
         """What holding each reading at its mean costs ± its standard error, the least first."""

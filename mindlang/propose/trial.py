@@ -32,9 +32,9 @@ from mindlang.training.subject import origin_weights
 
 COMMON_LAYOUTS = 40  # on which candidates are compared
 RECORDED_RUNS = 3  # of which the mean of a reading is taken
-GENERATIONS = 62  # of a whole lesson
+LESSON_GENERATIONS = 62  # of a whole lesson
 STANDARD_ERRORS = 2.0  # by which what is better is better
-WORTHWHILE = 0.03  # of a score, below which a gain is not worth a line
+WORTHWHILE_SHARE = 0.03  # of a score, below which a gain is not worth a line
 
 Floats = NDArray[np.float64]
 Counting = Callable[[str, int], AbstractContextManager[Callable[[float], None]]]
@@ -107,7 +107,7 @@ class Stage:
         return [
             *candidate.sensors(self.known),
             *candidate.skill(self.skill, remarks),
-            *candidate.curriculum(self.skill, self.known.task, self.curriculum, GENERATIONS),
+            *candidate.curriculum(self.skill, self.known.task, self.curriculum, LESSON_GENERATIONS),
         ]
 
     def graph_of(self, candidate: Candidate) -> Graph | None:
@@ -192,10 +192,20 @@ def gain(less: Floats, more: Floats) -> tuple[float, float]:
     return float(each.mean()), float(each.std(ddof=1) / np.sqrt(len(each)))
 
 
+def is_better(trial: Trial, than: Trial) -> bool:
+    """True if the best attempt of one has more than that of another by two standard errors, and by 3 %."""
+    return _is_worth(gain(than.scores[than.best], trial.scores[trial.best]), than)
+
+
 def is_surely_better(trial: Trial, than: Trial) -> bool:
-    """True if even the worst attempt of one has more than the best of another by two standard errors, and by 3 %."""
-    mean, error = min(gain(than.scores[than.best], scores) for scores in trial.scores)
-    return mean > max(STANDARD_ERRORS * error, WORTHWHILE * abs(than.score))
+    """True if even the middle one of its attempts, of two the worse, is better so than the best of the other."""
+    gains = sorted(gain(than.scores[than.best], scores) for scores in trial.scores)
+    return _is_worth(gains[(len(gains) - 1) // 2], than)
+
+
+def _is_worth(gained: tuple[float, float], than: Trial) -> bool:
+    mean, error = gained
+    return mean > max(STANDARD_ERRORS * error, WORTHWHILE_SHARE * abs(than.score))
 
 
 def started(stage: Stage, candidates: Iterable[Candidate]) -> list[Trial]:
