@@ -87,7 +87,7 @@ def proposal(path: Path, task: str, seed: int, workers: int) -> tuple[Stage, Pro
     return stage, propose(stage)
 
 
-def _quiet(what: str, total: int):
+def _quiet(what: str, total: int) -> AbstractContextManager[Callable[[float], None]]:
     return nullcontext(lambda more: None)
 
 

@@ -19,7 +19,7 @@ WIDEST_MASTER = 6  # taught skills of which all pairs are tried
 BIAS = "bias"
 LEARNER = "genetic population 50 octaves 2"
 FOUNDER_TICKS, MOST_FOUNDERS = 30_000_000, 3000  # random genomes that a lesson begins with, fewer for long runs
-SHORT_SHARE, LEAST_TICKS = 0.07, 700  # the share of a run with which a lesson begins, and how long that is at least
+SHORT_TICKS = 2500  # of the runs with which a lesson begins
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +83,7 @@ class Candidate:
         if not self.learns:
             return []
         founders = min(MOST_FOUNDERS, max(100, FOUNDER_TICKS // task.ticks))
-        short = max(SHORT_SHARE, LEAST_TICKS / task.ticks)
+        short = max(0.01, SHORT_TICKS / task.ticks)
         begins = f"from {self.origin}" if self.origin else f"founders {founders} from scratch"
         shorter = f" short {100 * short:.0f}%" if short < 1 else ""
         lesson = f"  teaches {skill} on {task.name} for {generations} generations{shorter} {begins}"
