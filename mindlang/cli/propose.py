@@ -35,9 +35,9 @@ if TYPE_CHECKING:
 @options.json_flag()
 @options.quiet_flag()
 def command(file: str, task: str, skill: str | None, apply: bool, teach: bool, seed: int, workers: int | None) -> None:
-    """Propose a skill for TASK: what it reads, drives and influences.
+    """Propose a skill for a task without one.
 
-    Tries what the mind has: a taught skill as it is, or with its readings exchanged, masters over taught skills, and
+    What it reads, drives and influences. Tries what the mind has: a taught skill as it is, or with its readings exchanged, masters over taught skills, and
     skills from scratch, all on the same layouts. What is added has to be surely better; what costs nothing when it is
     held at its mean is left out. Prints the diff, with the evidence behind each line.
 

@@ -115,7 +115,7 @@ class Search:
     def prune(self, base: Trial) -> Trial:
         """The winner without readings that cost nothing when they are held at their means, if it is as good.
 
-        Where it is not without all of these, then perhaps without the half of them that cost least.
+        Where it is not without all of these, then perhaps without the first half of them.
         """
         idle = self._idle(base)
         while idle and (smaller := self._without(base, idle)) is base:
@@ -138,7 +138,7 @@ class Search:
         return again[0]
 
     def _idle(self, base: Trial) -> list[str]:
-        """The readings that cost nothing when all of them are held at their means, those that cost least first."""
+        """The readings that cost nothing when all of them are held at their means, in the order of `_costs`."""
         means, costs, idle = self.stage.means(base), self._costs(base), list[str]()
         for name in costs:
             if len(idle) + 1 < len(costs):  # one is left
@@ -148,7 +148,7 @@ class Search:
         return idle
 
     def _costs(self, base: Trial) -> dict[str, tuple[float, float]]:
-        """What holding each reading at its mean costs ± its standard error, the least first."""
+        """What holding each reading at its mean costs ± its standard error: first of what the task does not name."""
         means = self.stage.means(base)
         with self.stage.counting("each reading held at its mean", len(means)) as told:
             found = dict[str, tuple[float, float]]()
@@ -156,7 +156,7 @@ class Search:
                 if name != BIAS:
                     found[name] = gain(self.stage.holding(base, [name], means), base.scores[base.best])
                 told(1)
-        return dict(sorted(found.items(), key=lambda item: item[1][0]))
+        return dict(sorted(found.items(), key=lambda item: (item[0] in self.known.named, item[1][0])))
 
     def _acting(self, candidates: Sequence[Candidate], what: str) -> list[Trial]:
         """Candidates that act without a lesson, scored."""

@@ -30,7 +30,7 @@ from mindlang.run.recorded_run import record_run
 from mindlang.run.setup import RunSetup
 from mindlang.training.subject import origin_weights
 
-COMMON_LAYOUTS = 40  # on which candidates are compared
+COMMON_LAYOUTS = 100  # on which candidates are compared
 RECORDED_RUNS = 3  # of which the mean of a reading is taken
 LESSON_GENERATIONS = 62  # of a whole lesson
 STANDARD_ERRORS = 2.0  # by which what is better is better
