@@ -37,9 +37,10 @@ if TYPE_CHECKING:
 def command(file: str, task: str, skill: str | None, apply: bool, teach: bool, seed: int, workers: int | None) -> None:
     """Propose a skill for a task without one.
 
-    What it reads, drives and influences. Tries what the mind has: a taught skill as it is, or with its readings exchanged, masters over taught skills, and
-    skills from scratch, all on the same layouts. What is added has to be surely better; what costs nothing when it is
-    held at its mean is left out. Prints the diff, with the evidence behind each line.
+    What it reads, drives and influences. Tries what the mind has: a taught skill as it is, or with its readings
+    exchanged, masters over taught skills, and skills from scratch, all on the same layouts. What is added has to be
+    surely better; what costs nothing when it is held at its mean is left out. Prints the diff, with the evidence behind
+    each line.
 
     Runs the Python code of the file's procedures. Exits with 1 where nothing that was tried does better than nothing.
     """
