@@ -12,8 +12,9 @@ PAGES: Mapping[str, Mapping[str, Sequence[str]]] = {
     INDEX: {
         "Begin": ["../README", "install", "new", "tutorial", "tour", "guides/*"],
         "Reference": [*LANGUAGE, "kinds", "words", "codes", "commands", "lint", "edits", "python*", "glossary"],
-        "Train and measure": ["audit", "learning", "showing", "lifelong", "logs", "cluster", "locks", "weights", "gymnasium"],
-        "See and ask": ["view", "why", "whatif", "falsify", "breakpoints", "proofs"],
+        "Teach": ["learning", "showing", "propose", "audit", "falsify"],
+        "Train and measure": ["lifelong", "logs", "cluster", "locks", "weights", "gymnasium"],
+        "See and ask": ["view", "why", "whatif", "breakpoints", "proofs"],
         "On the robot": ["robot", "robot-yaml", "drivers", "safety", "deploy"],
         "Examples": ["../examples/*/README", "../examples/*/RESULTS"],
         "Around it": ["editors", "playground", "versions", "../CHANGELOG"],
