@@ -88,7 +88,7 @@ def taught(home: Path, seed: int, shown: bool, lesson: bool, generations: int) -
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
     parser.add_argument("--seeds", type=int, default=6)
     parser.add_argument("--generations", type=int, default=30)
     asked = parser.parse_args()

@@ -7,7 +7,6 @@ from functools import cached_property
 import numpy as np
 from mindrun.graph.graph import Task
 from mindrun.graph.run_scores import Scores
-from mindrun.kinds.events.event import Collision, Success
 from mindrun.kinds.registry import phrase
 from mindrun.numbers.expression import leaves
 from mindrun.train.scoring import succeeded
@@ -216,11 +215,11 @@ class Findings:
         if on is None:
             return False
         ends = (end.event for end in self.task.ends if end.succeeds)
-        return on in ends or isinstance(self.task.events[on], Success)
+        return on in ends or self.task.events[on].is_of_success
 
     @property
     def _collisions(self) -> set[int | None]:
-        return {i for i, event in enumerate(self.task.events) if isinstance(event, Collision)}
+        return {i for i, event in enumerate(self.task.events) if event.is_mishap}
 
     def _is_good(self, line: int) -> bool:
         return self.task.rewards[line].on in self.goods or self._is_of_success(line)

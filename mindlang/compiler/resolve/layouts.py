@@ -5,7 +5,8 @@ from pathlib import Path
 
 from mindrun.errors import reason
 from mindrun.files.regular_files import read_regular
-from mindrun.graph.graph import HardLayouts, is_layout
+from mindrun.graph.graph import HardLayouts
+from mindrun.graph.validate import is_layout
 from mindrun.kinds.learners import SHARE
 
 from mindlang.compiler.diagnostic import Findings

@@ -22,7 +22,6 @@ from mindrun.numbers.short_repr import ShortRepr
 Receiver = Literal["skill", "actuator", "memory"]  # of what a skill sends
 Sink = tuple[Receiver, int]  # which one of its kind
 Varying = Literal["actuator", "sensor", "body", "thing"]  # what an argument can be of that varies
-MAX_LAYOUT, SEED_DIGITS = 2**64 - 1, 20  # the greatest seed of a run, and how many digits it has
 VARIED_NOUNS: tuple[Varying, ...] = ("actuator", "sensor", "body")  # those of the robot
 
 
@@ -321,11 +320,6 @@ class HardLayouts:
 
     share: Share
     seeds: tuple[str, ...]
-
-
-def is_layout(seed: str) -> bool:
-    """True if digits are the seed of a run."""
-    return seed.isascii() and seed.isdigit() and len(seed) <= SEED_DIGITS and int(seed) <= MAX_LAYOUT
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from itertools import chain
 from math import prod
 
 from mindrun.graph.draws import MAX_VALUES, Draw, intervals_of
-from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task, is_layout, varied_quantity
+from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task, varied_quantity
 from mindrun.graph.tasks import unfit_thing, varied_kind
 from mindrun.kinds.functions.procedure import is_inside
 from mindrun.kinds.registry import arguments
@@ -17,6 +17,7 @@ from mindrun.numbers.expression import CHOICES, OPERATORS, is_condition, is_vali
 from mindrun.numbers.quantity import COORDINATE, NUMBER, SKILL, THING, UNSAID, fits
 
 NAME = re.compile(r"[^\W\d_]\w*([+.]\w+)*")
+MAX_SEED, SEED_DIGITS = 2**64 - 1, 20  # the greatest seed of a run, and how many digits it has
 MIN_TICK_SECONDS, MAX_TICK_SECONDS = 1e-9, 1e9  # seconds of a tick
 
 
@@ -59,6 +60,11 @@ def _name_flaws(graph: Graph) -> Iterator[str]:
             names.add(part.name)
     if graph.master not in {skill.name for skill in graph.skills}:
         yield f"its master {graph.master!r:.60} is not one of its skills"
+
+
+def is_layout(seed: str) -> bool:
+    """True if digits are the seed of a run."""
+    return seed.isascii() and seed.isdigit() and len(seed) <= SEED_DIGITS and int(seed) <= MAX_SEED
 
 
 def lesson_flaws(lesson: Lesson) -> Iterator[str]:
