@@ -150,7 +150,7 @@ def simulated(text: str) -> Rollout:
     return Rollout(Policy(compile_text(text), {}), "Test", "Seek")
 
 
-@settings(max_examples=cases(750), deadline=None)
+@settings(max_examples=cases(300), deadline=None)
 @given(goals(), st.lists(st.sampled_from([*PREFERENCES]), unique=True), st.integers(0, 999))
 def test_goals_are_worth_what_the_rows_say(all_goals: list[Goal], preferred: list[str], seed: int) -> None:
     lines = [*map(str, all_goals), *(f"prefers {each}" for each in preferred)]
