@@ -185,7 +185,9 @@ def told(name: str, found: np.ndarray[Any, Any]) -> str:
 
 def main() -> None:
     """Compare."""
-    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        allow_abbrev=False, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--curriculum", default="collect", choices=["collect", "worlds"])
     parser.add_argument("--seeds", type=int, default=5)
     parser.add_argument("--first", type=int, default=1, metavar="SEED", help="the first seed, others follow")
