@@ -145,7 +145,7 @@ def gained(scores: list[float]) -> float:
 
 
 def within(life: Life, ticks: int, choose: Callable[[Life], int], options: argparse.Namespace) -> Life:
-    """As many slices as the ticks allow, of the lessons that are chosen; one takes as long as its last one did."""
+    """A life after all slices of chosen lessons that fit in the ticks; one takes as long as the last of its lesson."""
     while life.ticks < ticks:
         place = choose(life)
         if not options.exceed and life.ticks + sum(each.ticks for each in life.of(place)[-1:]) > ticks:

@@ -13,7 +13,7 @@ from mindlang.falsify.region import Box
 from mindlang.falsify.search import Found
 from mindlang.number_format import finite, score
 from mindlang.run.outcome import TIME, ended_by
-from mindlang.run.summary import Row, aligned
+from mindlang.run.summary import Row, aligned, shortened
 
 WORST_RUNS = 10  # that are told
 MAX_HARD_SEEDS = 1000  # of a file
@@ -101,7 +101,7 @@ def found_summary(data: dict[str, Any]) -> RenderableType:
     ]
     parts: list[RenderableType] = [Text(f"{data['task']} under {data['master']}", "bold"), aligned(facts, (0, 1))]
     if data["worst"]:
-        names = _cut(", ".join(data["worst"][0]["drawn"]))
+        names = shortened(", ".join(data["worst"][0]["drawn"]), DRAWN_COLUMNS)
         parts += ["", aligned(map(_row, data["worst"]), (0, 3, 4), ("worst", "score", "ticks", "ended by", names))]
         parts.append(Text(f"{data['repeat']} SEED repeats one", "dim"))
     return Group(*parts)
@@ -127,9 +127,5 @@ def _region(data: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def _row(run: dict[str, Any]) -> list[str | Text]:
-    ended = run["ended_by"] or "its time"
-    return [run["layout"], score(run["score"]), f"{run['ticks']:,}", ended, _cut(", ".join(run["drawn"].values()))]
-
-
-def _cut(text: str) -> str:
-    return text if len(text) <= DRAWN_COLUMNS else f"{text[: DRAWN_COLUMNS - 1]}…"
+    ended, drawn = run["ended_by"] or "its time", shortened(", ".join(run["drawn"].values()), DRAWN_COLUMNS)
+    return [run["layout"], score(run["score"]), f"{run['ticks']:,}", ended, drawn]

@@ -101,7 +101,7 @@ class Search:
     passed: Callable[[], float] = lambda: 0.0
 
     def find(self, runs: int | None) -> Found:
-        """So many runs on any layouts, or as many as half of the time has room for; then those of a search."""
+        """What many runs on any layouts find, or of None those of half of the time, and then a search."""
         uniform = self._uniform(runs)
         criterion = self.criterion.with_default(uniform.scores)
         if not self.numbers or self.rollout.is_one_world:
@@ -193,7 +193,7 @@ class _Pool:
         self.is_free: Mask = np.ones(len(self._places), np.bool_)
 
     def chosen(self, log_weights: Doubles, count: int, number: int) -> NDArray[np.intp]:
-        """So many that are free, at most, by their weights: the least of exponential numbers over them (Efraimidis)."""
+        """Places of free runs, `count` at most, drawn by weight: the least exponential numbers over it (Efraimidis)."""
         rng = np.random.default_rng(np.random.SeedSequence(self._search.seed, spawn_key=(number,)))
         keys = np.log(rng.standard_exponential(len(log_weights))) - log_weights
         free = np.flatnonzero(self.is_free)

@@ -9,6 +9,7 @@ from itertools import combinations
 from typing import Literal
 
 from mindrun.graph.graph import Graph
+from mindrun.kinds.registry import phrase
 from mindrun.kinds.sensors.sensor import SensorKind
 
 from mindlang.compiler.model import Task
@@ -196,6 +197,4 @@ def from_candidate(known: Known, name: str) -> Candidate:
 
 def function_of(graph: Graph, name: str) -> str:
     """The words for the function of a skill, with what is derived left out."""
-    from mindrun.kinds.registry import phrase
-
     return phrase(next(each.function for each in graph.skills if each.name == name))

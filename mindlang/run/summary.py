@@ -323,6 +323,11 @@ def credit_summary(found: dict[str, Any], credited: Mapping[str, PairedDifferenc
     )
 
 
+def shortened(text: str, columns: int) -> str:
+    """A text cut to so many columns."""
+    return text if len(text) <= columns else f"{text[: columns - 1]}…"
+
+
 def aligned(rows: Iterable[Row], left: Collection[int], head: Sequence[str] = ()) -> Text:
     """A line for each row, two blanks between its columns; those in `left` are set to the left, others to the right.
 

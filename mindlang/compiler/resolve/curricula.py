@@ -347,20 +347,16 @@ def counterparts(
     if len(set(found.values())) < len(found):
         return None
 
-    def shape(name: str) -> tuple[str | None, str]:
-        plain, _, width = name.partition(":")
-        return kinds.get(plain), width
+    def width(name: str) -> str:
+        return name.partition(":")[2]
 
-    for missing in [name for name in among if name not in found.values()]:
-        others = [name for name in among if shape(name) == shape(missing) and name not in found.values()]
-        standing = [name for name in of if shape(name) == shape(missing) and name not in found]
-        if len(others) == len(standing) == 1:
-            found[standing[0]] = missing
-    own = [name for name in of if name not in found]
-    for missing in [name for name in among if name not in found.values()]:
-        width = missing.partition(":")[2]
-        standing = [name for name in own if name.partition(":")[2] == width and name not in found]
-        if len(standing) != 1:
-            return None
-        found[standing[0]] = missing
-    return found
+    def shape(name: str) -> tuple[str | None, str]:
+        return kinds.get(name.partition(":")[0]), width(name)
+
+    for alike in (shape, width):
+        for missing in [name for name in among if name not in found.values()]:
+            others = [name for name in among if alike(name) == alike(missing) and name not in found.values()]
+            standing = [name for name in of if alike(name) == alike(missing) and name not in found]
+            if len(others) == len(standing) == 1:
+                found[standing[0]] = missing
+    return found if {*found.values()} == {*among} else None

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from mindrun.errors import reason
 from mindrun.files.regular_files import read_regular
 from mindrun.graph.graph import HardLayouts
 from mindrun.graph.validate import is_layout
@@ -11,7 +10,7 @@ from mindrun.kinds.learners import SHARE
 
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.resolve.kinds import once
-from mindlang.compiler.resolve.maps import path_of
+from mindlang.compiler.resolve.maps import path_inside, why_unread
 from mindlang.compiler.resolve.quantities import SHAPES
 from mindlang.compiler.source import MAX_SOURCE_BYTES, decode_source
 from mindlang.compiler.syntax import Argument, Text
@@ -38,16 +37,13 @@ def hard_layouts(written: Sequence[Argument], root: Path, findings: Findings) ->
 
 def _seeds(file: Text, root: Path, findings: Findings) -> tuple[str, ...]:
     """The seeds in a file, each once, the least first; empty after reporting why there are none."""
-    path = path_of(file)
-    if path is None or not path.is_relative_to(root.resolve()):
-        hint = "Layouts are in the folder of the mind or below it; the path is relative to the file in which it stands."
-        findings.error("outside-project", file.span, f'"{file.text}" is not inside the project.', hint)
+    hint = "Layouts are in the folder of the mind or below it; the path is relative to the file in which it stands."
+    if (path := path_inside(file, root, hint, findings)) is None:
         return ()
     try:
         text = decode_source(read_regular(path, MAX_SOURCE_BYTES + 1))
     except (OSError, ValueError, RuntimeError) as error:
-        why = f"cannot be read: {reason(error) if isinstance(error, OSError) else f'it {error}'}"
-        findings.error("unreadable-layouts", file.span, f"{file.text} {why}.", FILE_HINT)
+        findings.error("unreadable-layouts", file.span, f"{file.text} {why_unread(error)}.", FILE_HINT)
         return ()
     lines = {number: line.partition("#")[0].strip() for number, line in enumerate(text.split("\n"), 1)}
     seeds = {number: seed for number, seed in lines.items() if seed}

@@ -32,16 +32,14 @@ def text_lines(value: Value, root: Path | None, findings: Findings) -> tuple[str
         hint = 'Write its name between quotation marks: map from "maze.txt".'
         findings.error("not-a-file", value.span, "Here stands the name of a text file.", hint)
         return None
-    path = path_of(value)
-    if path is None or (root and not path.is_relative_to(root.resolve())):
-        hint = "A map is in the folder of the mind or below it; its path is relative to the file in which it stands."
-        findings.error("outside-project", value.span, f'"{value.text}" is not inside the project.', hint)
+    hint = "A map is in the folder of the mind or below it; its path is relative to the file in which it stands."
+    if (path := path_inside(value, root, hint, findings)) is None:
         return None
     try:
         data = read_regular(path, MAX_SOURCE_BYTES + 1)
         text = "" if PICTURES.match(data) else decode_source(data)
     except (OSError, ValueError, RuntimeError) as error:
-        why = f"cannot be read: {reason(error)}" if isinstance(error, OSError) else f"cannot be read: it {error}"
+        why = why_unread(error)
         hint = "The path is relative to the file in which it stands; a map is a text of # and . and letters."
     else:
         hint = f"{SQUARES}. {IMPORT} {value.text} -o walls.txt makes one of it."
@@ -55,6 +53,20 @@ def text_lines(value: Value, root: Path | None, findings: Findings) -> tuple[str
             return tuple(line.rstrip() for line in text.rstrip().split("\n"))
     findings.error("unreadable-map", value.span, f"{value.text} {why}.", hint)
     return None
+
+
+def path_inside(value: Text, root: Path | None, hint: str, findings: Findings) -> Path | None:
+    """The file that a text names in the project's folder or below it; None after reporting that it is elsewhere."""
+    path = path_of(value)
+    if path is None or (root and not path.is_relative_to(root.resolve())):
+        findings.error("outside-project", value.span, f'"{value.text}" is not inside the project.', hint)
+        return None
+    return path
+
+
+def why_unread(error: Exception) -> str:
+    """The reason why a text cannot be read or decoded, behind the name of its file."""
+    return f"cannot be read: {reason(error) if isinstance(error, OSError) else f'it {error}'}"
 
 
 def path_of(value: Text) -> Path | None:

@@ -213,7 +213,7 @@ class Tally:
 
     @property
     def programs(self) -> tuple[Program, ...]:
-        """Its value and its condition, if it has them."""
+        """The programs of a tally: its value and its condition, if it has them."""
         return tuple(program for program in (self.value, self.when) if program is not None)
 
 

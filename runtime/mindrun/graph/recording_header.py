@@ -15,13 +15,12 @@ from mindrun.files.strict_json import are_names, is_whole, parsed
 from mindrun.graph.codec import decode, encode
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.named_readings import physical
-from mindrun.graph.validate import MAX_TICK_SECONDS, MIN_TICK_SECONDS
+from mindrun.graph.validate import MAX_SEED, MAX_TICK_SECONDS, MIN_TICK_SECONDS
 from mindrun.numbers.arrays import Doubles
 from mindrun.numbers.quantity import NUMBER, SECONDS, Quantity
 
 FORMAT = "mind recording 3"
 MAX_HEADER_BYTES = 1 << 20
-MAX_SEED = (1 << 64) - 1
 COLUMNS = Quantity("a number of columns", {"": 1.0}, low=0, high=MAX_HEADER_BYTES, whole=True)
 TICK = replace(SECONDS, low=MIN_TICK_SECONDS, high=MAX_TICK_SECONDS)
 CHECKSUM_FIELD = b', "check": "'  # the checksum of the line before it, which is the last that it says

@@ -9,10 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.engine.changes import ChangedEngine
-from mindrun.engine.engine import Engine
 from mindrun.engine.promises import BY_INFLUENCE, HELD, NOT_JUDGED, PromiseWatcher
 from mindrun.graph.recording_header import BY_LOOP, NOT_STOPPED, by_guardian
-from mindrun.numbers.arrays import Singles
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.guard import failing
 from mindrun.robot.hand import NO_HAND, Hand, Said
@@ -82,7 +80,7 @@ class Loop:
     look.
     """
 
-    engine: Engine
+    engine: ChangedEngine
     senses: ReadingFilter
     guardian: Guardian
     pace: Rate
@@ -116,7 +114,7 @@ class Loop:
             self.tell(f"{name} is fine again")
         self.faulty = {*sensed.why}
         said = self._said()
-        commands = self._thought(sensed.readings, said)
+        commands = self.engine.tick_with(sensed.readings, self.hand.influence(said))
         too_old = self.pace.clock() - time >= MAX_THINKING_TICKS * self.pace.tick  # to act on what was sensed then
         must_stop = self._broken(self.promises) if self.promises and self.promises.promises else False
         stopped = sensed.must_stop or behind or too_old or must_stop or said is None
@@ -143,12 +141,6 @@ class Loop:
             self.let_go = said is None
             self.tell("nobody drives, and every actuator is at neutral" if self.let_go else "the hand drives")
         return said
-
-    def _thought(self, readings: Singles, said: Said | None) -> Singles:
-        """The mind's own commands, with the influence that the hand gives."""
-        if isinstance(self.engine, ChangedEngine):
-            return self.engine.tick_with(readings, self.hand.influence(said))
-        return self.engine.tick(readings)
 
     def _broken(self, promises: PromiseWatcher) -> bool:
         """Tell of a promise that is broken in this tick, and again once it has held; True where one stops the robot."""

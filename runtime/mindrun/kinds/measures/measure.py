@@ -17,6 +17,7 @@ class MeasureKind(AboutThing):
 
     is_outside = False  # whether an environment says what it is
     interval = (-inf, inf)  # its least and its greatest value
+    way = 0  # 1 where it is only of the way toward a thing, -1 where only of the way back
     over = 0  # the number of ticks whose changes of commands the lanes keep for it
     beyond = 0.0  # the share of a wheel's travel beyond which such a change counts
 
@@ -39,6 +40,7 @@ class Advance(MeasureKind):
     toward: ThingName
     of: ThingName = left_out("")
 
+    way = 1
     interval = (0.0, inf)
 
 
@@ -49,6 +51,7 @@ class Retreat(MeasureKind):
     from_: ThingName
     of: ThingName = left_out("")
 
+    way = -1
     interval = (0.0, inf)
 
 
