@@ -1,7 +1,7 @@
 """Where runs end, for reading: how they ended, where the robot ran into something, and what to do about it."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from statistics import median
 from textwrap import fill
 from typing import Any
@@ -31,7 +31,7 @@ def ends_text(found: dict[str, Any]) -> RenderableType:
     rows = [_row(place, touching) for place, touching in sorted(places.items())]
     place, most = max(places.items(), key=lambda each: len(each[1]))
     said = _said(_conclusion(place, most, sum(map(len, places.values()))), found, most)
-    return Group(*parts, _table(HEAD, rows, left=(0, 5)), Text(f"\n{LEGEND}\n", "dim"), *said)
+    return Group(*parts, aligned(rows, (0, 5), HEAD), Text(f"\n{LEGEND}\n", "dim"), *said)
 
 
 def _said(sentence: str, found: dict[str, Any], ends: Ends) -> Iterator[Text]:
@@ -49,11 +49,7 @@ def _ways(found: dict[str, Any]) -> Text:
         (f"{runs:,}", name, _often(end["in_control"] for end in found["ends"] if end["ended_by"] == name))
         for name, runs in found["ended"].items()
     ]
-    return _table(("runs", "ended by", "moved at the end by" * any(named for *_, named in rows)), rows, left=(1, 2))
-
-
-def _table(head: Sequence[str], rows: Iterable[Sequence[str]], left: tuple[int, ...]) -> Text:
-    return aligned([[Text(each, "dim") for each in head], *rows], left)
+    return aligned(rows, (1, 2), ("runs", "ended by", "moved at the end by" * any(named for *_, named in rows)))
 
 
 def _often(names: Iterable[str | None]) -> str:

@@ -141,13 +141,11 @@ def _texts(compiled: "Compiled") -> "Texts":
 @terminal.procedures_talk()
 def training_view(folder: Path, seed: int | None) -> "tuple[Viewed, Learning]":
     """The champion of a training's folder that was found last, at its beginning, and all others."""
-    from mindrun.train import NotFoundError
-
     from mindlang.cli._session import RunSession, ensure_compiled
     from mindlang.view.learning import open_learning
     from mindlang.view.messages import RefusedError
 
-    with terminal.refusing(), terminal.refusing(terminal.MISUSE, of=NotFoundError):
+    with terminal.refusing_lessons():
         try:
             learning = open_learning(folder, secrets.randbits(31) if seed is None else seed)
             number, attempt, generation = learning.newest()
