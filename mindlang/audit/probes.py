@@ -98,7 +98,6 @@ class Evidence:
 
 
 def evidence(task: Task, probe: Probe, scores: Scores) -> Evidence:
-    """The means of a probe's runs."""
     lines = scores.by_line[:, :, : len(task.rewards)].mean(axis=1)
     success = np.asarray(succeeded(task, scores), np.float64).mean(axis=1)
     good = np.flatnonzero(~scores.faults.any(axis=1) & np.isfinite(scores.total).all(axis=1))

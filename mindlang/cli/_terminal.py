@@ -126,7 +126,6 @@ def print_table(table: RenderableType) -> None:
 
 
 def print_json(value: object) -> None:
-    """Print one JSON document on stdout."""
     print_document(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
 
 

@@ -33,7 +33,6 @@ class ProgressText:
     left: str
 
     def text(self) -> str:
-        """All parts in one text."""
         return self._with(self.where, self.best, self.reevaluated, self.rate)
 
     def shorter(self) -> Iterator[tuple[str, int]]:

@@ -44,7 +44,6 @@ class Runs:
     drawn: Doubles
 
     def and_those(self, others: Sequence["Runs"]) -> "Runs":
-        """These runs, then others."""
         every = [self, *others]
         joined = (np.concatenate([getattr(each.scores, of.name) for each in every], axis=1) for of in fields(Scores))
         names = "places", "seeds", "drawn"
@@ -117,7 +116,6 @@ class Search:
         return self._checked(found, box) if box else found
 
     def run(self, places: NDArray[np.int64], seeds: NDArray[np.uint64], drawn: Doubles | None = None) -> Runs:
-        """The runs of these seeds."""
         said = seeds.tolist()
         if drawn is None:
             drawn = drawn_at(self.rollout, said) if self.numbers else np.empty((len(said), 0))

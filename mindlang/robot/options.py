@@ -58,7 +58,6 @@ class DriverOption:
 
     @property
     def required(self) -> bool:
-        """True if it must be given."""
         return self.default is MISSING
 
 

@@ -63,7 +63,6 @@ class SkillNetwork:
 
     @property
     def state(self) -> int:
-        """The number of values that it remembers."""
         return self.skill.function.state_length(self.inputs, self.outputs)
 
 

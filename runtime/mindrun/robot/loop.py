@@ -159,7 +159,6 @@ class Loop:
 
     @property
     def neutral(self) -> NDArray[np.float32]:
-        """The neutral command of each actuator."""
         return np.array([actuator.kind.neutral for actuator in self.engine.graph.actuators], np.float32)
 
     def _measured(self) -> NDArray[np.float32]:

@@ -59,7 +59,6 @@ class Sampler:
         self._thread = threading.Thread(target=self._run, name=f"sensor {wire.sensor}", daemon=True)
 
     def start(self) -> None:
-        """Begin to measure."""
         self._thread.start()
 
     def stop(self, wait: float = 1.0) -> None:
