@@ -38,18 +38,6 @@ class ShowingError(MindError):
 
 
 @dataclass(frozen=True, slots=True)
-class Shown:
-    """What a skill reads in a drive [ticks, inputs], and what it would send there [ticks, outputs].
-
-    The ticks are those in which all that it reads is a number: in others a skill computes nothing. What it would send
-    is NaN where nobody knows it.
-    """
-
-    inputs: Rows
-    wanted: Rows
-
-
-@dataclass(frozen=True, slots=True)
 class OutputError:
     """How far an output is off what was shown on drives that were held out, in 0..1.
 
@@ -140,7 +128,11 @@ def _parted(drives: Sequence[Drive], seed: int) -> tuple[list[Drive], list[Drive
     return [d for i, d in enumerate(drives) if i not in out], [d for i, d in enumerate(drives) if i in out]
 
 
-def _shown(graph: Graph, skill: Skill, drive: Drive) -> Shown:
+def _shown(graph: Graph, skill: Skill, drive: Drive) -> Examples:
+    """What a skill reads in a drive, and what it would send there, as one sequence; NaN where nobody knows it.
+
+    The ticks are those in which all that it reads is a number: in others a skill computes nothing.
+    """
     wanted = np.full((len(drive), skill.outputs), np.nan, np.float32)
     own = drive.influence[:, graph.skill_numbers[skill.name]]
     for edge in skill.edges:
@@ -154,7 +146,7 @@ def _shown(graph: Graph, skill: Skill, drive: Drive) -> Shown:
             wanted[:, edge.output] = np.clip(sent, 0, 1)
     inputs = drive.readings[:, list(skill.inputs)]
     is_read = np.isfinite(inputs).all(axis=1)
-    return Shown(inputs[is_read], wanted[is_read])
+    return Examples(inputs[is_read, None].astype(float), wanted[is_read, None].astype(float))
 
 
 def _refuse_unshown(graph: Graph, skill: Skill, drives: Sequence[Drive]) -> None:
@@ -183,32 +175,32 @@ def _refuse_unshown(graph: Graph, skill: Skill, drives: Sequence[Drive]) -> None
             raise ShowingError(f"{names} has no {what}, which {skill.name} sends", f"record a drive of {who}")
 
 
-def _comparable(shown: Sequence[Shown]) -> int:
-    return sum(int(np.isfinite(each.wanted).any(axis=1).sum()) for each in shown)
+def _comparable(shown: Sequence[Examples]) -> int:
+    return sum(int(np.isfinite(each.wanted).any(axis=2).sum()) for each in shown)
 
 
-def _rows(shown: Sequence[Shown], most: int) -> Examples:
+def _rows(shown: Sequence[Examples], most: int) -> Examples:
     """At most so many rows, evenly from all that can be compared."""
     inputs, wanted = (np.concatenate([getattr(each, name) for each in shown]) for name in ("inputs", "wanted"))
-    known = np.flatnonzero(np.isfinite(wanted).any(axis=1))
+    known = np.flatnonzero(np.isfinite(wanted).any(axis=(1, 2)))
     taken = known[np.linspace(0, len(known) - 1, min(len(known), MOST_TICKS, max(most, FEWEST_TICKS))).astype(int)]
-    return Examples(inputs[taken, None].astype(float), wanted[taken, None].astype(float))
+    return Examples(inputs[taken], wanted[taken])
 
 
-def _windows(shown: Sequence[Shown]) -> Examples:
+def _windows(shown: Sequence[Examples]) -> Examples:
     """Windows of all drives side by side, for a function that remembers: as many as are fitted to, evenly."""
     parts = [
-        Shown(each.inputs[first : first + WINDOW_TICKS], each.wanted[first : first + WINDOW_TICKS])
+        each.part(slice(first, first + WINDOW_TICKS))
         for each in shown
         for first in range(0, len(each.inputs), WINDOW_TICKS)
     ]
     many = min(len(parts), MOST_TICKS // WINDOW_TICKS)
     parts = [parts[place] for place in np.linspace(0, len(parts) - 1, many).astype(int)]
     longest = max(len(each.inputs) for each in parts)
-    inputs = np.zeros((longest, len(parts), parts[0].inputs.shape[1]))
-    wanted = np.full((longest, len(parts), parts[0].wanted.shape[1]), np.nan)
+    inputs = np.zeros((longest, len(parts), parts[0].inputs.shape[2]))
+    wanted = np.full((longest, len(parts), parts[0].wanted.shape[2]), np.nan)
     for place, each in enumerate(parts):
-        inputs[: len(each.inputs), place], wanted[: len(each.inputs), place] = each.inputs, each.wanted
+        inputs[: len(each.inputs), place], wanted[: len(each.inputs), place] = each.inputs[:, 0], each.wanted[:, 0]
     return Examples(inputs, wanted)
 
 
@@ -226,12 +218,11 @@ def sent_by(network: SkillNetwork, genome: Weights, inputs: Rows) -> Rows:
 
 
 def _errors(
-    graph: Graph, network: SkillNetwork, genome: Weights, shown: Sequence[Shown], hidden: Sequence[Shown]
+    graph: Graph, network: SkillNetwork, genome: Weights, shown: Sequence[Examples], hidden: Sequence[Examples]
 ) -> Iterator[OutputError]:
     """The error of each output on what was held out, beside that of the mean of what was shown."""
-    wanted = np.concatenate([each.wanted for each in shown]).astype(float)
-    right = np.concatenate([each.wanted for each in hidden]).astype(float)
-    sent = np.concatenate([sent_by(network, genome, each.inputs) for each in hidden])
+    wanted, right = (np.concatenate([each.wanted[:, 0] for each in of]) for of in (shown, hidden))
+    sent = np.concatenate([sent_by(network, genome, each.inputs[:, 0].astype(np.float32)) for each in hidden])
     for edge in network.skill.edges:
         if (place := edge.output) is not None:
             known = np.isfinite(right[:, place])
