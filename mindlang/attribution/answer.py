@@ -9,6 +9,7 @@ import numpy as np
 from mindrun.engine.changes import ChangedEngine
 from mindrun.engine.engine import procedure_sources
 from mindrun.engine.think import hierarchy
+from mindrun.errors import MindError
 from mindrun.graph.weights import reachable
 from mindrun.kinds.sensors.sensor import directions
 from mindrun.numbers.arrays import Bools, Doubles
@@ -18,7 +19,6 @@ from mindrun.terminal.tick_count import ticks as in_words
 
 from mindlang.attribution.shares import NAMED_PATHS, Contribution, shares
 from mindlang.compiler.diagnostic import did_you_mean, listed
-from mindlang.run.chosen_task import SetupError
 from mindlang.run.edge_flow import EdgeFlows, Singles, Sink, edge_flows, sink_named
 from mindlang.run.outcome import events, rewards_data, run_names
 from mindlang.run.promises import promises_of
@@ -78,11 +78,8 @@ def attributed_recording(path: Path, bundle: Path) -> AttributedRun:
     return AttributedRun(about, flows, rows["sent"], rows["stopped"] != 0, run)
 
 
-class QuestionError(SetupError):
+class QuestionError(MindError):
     """A question that has no answer; the text is for the user."""
-
-    def __init__(self, message: str, hint: str = "") -> None:
-        super().__init__(message, hint, misuse=True)
 
 
 def answer(attributed: AttributedRun, what: str, span: tuple[int, int] | None, paths: int | None) -> dict[str, Any]:

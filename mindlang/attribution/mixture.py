@@ -32,10 +32,8 @@ FEWEST_SPANS = 3  # one after the other that nobody explains: fewer are a change
 SMOOTHNESS_SHARE = 1e-3  # of a squared change of shares from span to span, beside a squared error of a command
 SEARCH_STEPS = 1000  # of the search for shares
 LEFT_OVER = 0.05  # nobody explains a span with a greater mean error of a command
-TOLD_SHARE, GAINED_SHARE = (
-    0.1,
-    0.02,
-)  # of the squared differences: explained by readings at least, and gained by each more
+# Of the squared differences: explained by readings at least, and gained by each more.
+TOLD_SHARE, GAINED_SHARE = 0.1, 0.02
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,11 +105,7 @@ def commands_of(policy: Policy, sources: Sources, drive: Drive) -> dict[str, Dou
             continue
         if genes(skill) and skill.owner not in policy.weights:
             continue
-        ready = next(
-            s
-            for s in hierarchy(policy, sources, skill.name).skills
-            if s.index == policy.graph.skill_numbers[skill.name]
-        )
+        ready = hierarchy(policy, sources, skill.name).skills[0]  # the master is first
         if isinstance(ready.compute, Stateful):
             ready.compute.reset()
         sent = np.full((len(drive), len(policy.graph.actuators)), np.nan)
@@ -218,12 +212,8 @@ def telling_readings(graph: Graph, drive: Drive, of: Mixture) -> list[str]:
     chosen: list[str] = []
     best = TOLD_SHARE - GAINED_SHARE
     while rest := [name for name in features if name not in chosen]:
-        told = {
-            name: _explained(
-                [features[each] for each in (*chosen, name)], wanted, is_known & ~is_tested, is_known & is_tested
-            )
-            for name in rest
-        }
+        parts = {name: [features[each] for each in (*chosen, name)] for name in rest}
+        told = {name: _explained(of, wanted, is_known & ~is_tested, is_known & is_tested) for name, of in parts.items()}
         name = max(told, key=told.__getitem__)
         if told[name] < best + GAINED_SHARE:
             break

@@ -118,10 +118,11 @@ class Findings:
 
     def loopholes(self) -> Iterator[Diagnostic]:
         """Lines that pay for nothing that is counted."""
+        counted = [phrase(self.task.events[event]) for event in self.goods] + ["success"] * self.task.can_succeed
         for line, row in self.loophole_rows.items():
             paid = self.evidence.lines[row, line]
             message = (
-                f"This pays {shown(paid)} to {self._who(row)}, which {self._does_not()}; "
+                f"This pays {shown(paid)} to {self._who(row)}, which brings about no {' and no '.join(counted)}; "
                 f"the best comes to {shown(self.best)}."
             )
             hint = "Pay for what is counted, or for progress toward it, which takes back on the way away what it gave."
@@ -242,10 +243,6 @@ class Findings:
             case "found":
                 return "what the search has found"
         return f"the random genome {number + 1}"
-
-    def _does_not(self) -> str:
-        counted = [phrase(self.task.events[event]) for event in self.goods] + ["success"] * self.task.can_succeed
-        return f"brings about no {' and no '.join(counted)}"
 
     def _line(self, line: int) -> Span:
         return self.of.rewards[line].fact.span

@@ -147,9 +147,9 @@ def skill_probes(policy: Policy) -> Iterator[Probe]:
             yield Probe(skill.name, "skill", _under(policy, skill.name))
 
 
-def random_probes(policy: Policy, task: Task, seed: int, count: int = RANDOM_GENOMES) -> Iterator[Probe]:
+def random_probes(policy: Policy, task: Task, seed: int) -> Iterator[Probe]:
     """Random genomes of what the task's first lesson teaches, and of all that has no weights below its master."""
-    count = min(count, OUTSIDE_GENOMES) if task.scene.environment else count
+    count = OUTSIDE_GENOMES if task.scene.environment else RANDOM_GENOMES
     if (found := learning_probe(policy, task)).learners:
         rng = np.random.default_rng(seed)
         skills = {skill.name: skill for skill in policy.graph.skills}

@@ -72,16 +72,12 @@ def exported_images(viewed: Viewed, drawn: Callable[[int], None]) -> ExportedIma
     return ExportedImages(every, images)
 
 
-class ExportError(MindError):
-    """A run that does not fit into a file."""
-
-
 def refuse_too_large_page(viewed: Viewed) -> None:
-    """ExportError where so many rows do not fit into a page."""
+    """MindError where so many rows do not fit into a page."""
     columns = viewed.columns
     size = (viewed.known + 1) * (8 * columns.width(DOUBLE_BLOCK) + 4 * columns.width(SINGLE_BLOCK))
     if size > MAX_EXPORTED_BYTES:
-        raise ExportError(
+        raise MindError(
             f"{viewed.known:,} ticks of this mind are {size >> 20:,} MiB, more than a page can hold",
             "see it with a server: leave --export out",
         )
@@ -93,8 +89,9 @@ def exported(about: dict[str, Any], ticks: dict[str, Any], viewed: Viewed, image
     policy = f'<meta http-equiv="Content-Security-Policy" content="{_policy(script, style)}" />'
     data = {"about": about | {"edits": False}, "ticks": ticks, "rows": viewed.known + 1}
     data |= {"images": images and asdict(images)}
+    inert = json.dumps(data, allow_nan=False).replace("<", "\\u003c")
     body = "\n".join([
-        f'<script type="application/json" id="recording">{_inert(data)}</script>',
+        f'<script type="application/json" id="recording">{inert}</script>',
         f'<script type="text/plain" id="rows">{_rows(viewed)}</script>',
         f"<script>{script}</script>\n  </body>",
     ])  # fmt: skip
@@ -108,10 +105,6 @@ def _policy(script: str, style: str) -> str:
         f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'" for text in (script, style)
     )
     return f"default-src 'none'; script-src {run}; style-src {look}; img-src data:; base-uri 'none'; form-action 'none'"
-
-
-def _inert(data: dict[str, Any]) -> str:
-    return json.dumps(data, allow_nan=False).replace("<", "\\u003c")
 
 
 def _rows(viewed: Viewed) -> str:

@@ -33,10 +33,6 @@ FITTED_NUMBERS = 400_000  # ticks times weights, at most, of a function that rem
 WINDOW_TICKS = 2000  # of a function that remembers: it begins each with nothing remembered, as a run
 
 
-class ShowingError(MindError):
-    """Drives from which a skill cannot learn."""
-
-
 @dataclass(frozen=True, slots=True)
 class OutputError:
     """How far an output is off what was shown on drives that were held out, in 0..1.
@@ -86,13 +82,13 @@ class Imitation:
 def imitation(
     graph: Graph, network: SkillNetwork, drives: Sequence[Drive], seed: int, told: Callable[[int], object]
 ) -> Imitation:
-    """A skill's weights fitted to drives; ShowingError where these do not show what it reads or sends."""
+    """A skill's weights fitted to drives; MindError where these do not show what it reads or sends."""
     _refuse_unshown(graph, network.skill, drives)
     fitting, held_out = _parted(drives, seed)
     shown, hidden = ([_shown(graph, network.skill, drive) for drive in each] for each in (fitting, held_out))
     ticks, held_out_ticks = (_comparable(each) for each in (shown, hidden))
     if ticks < FEWEST_TICKS or held_out_ticks < FEWEST_TICKS // HELD_OUT:
-        raise ShowingError(
+        raise MindError(
             f"{in_words(drives)} shows {network.skill.name} too little: {tick_count(ticks + held_out_ticks)} that can "
             f"be compared, {tick_count(held_out_ticks)} of these held out",
             f"drive for longer: {FEWEST_TICKS} ticks beside those held out are the least",
@@ -114,7 +110,7 @@ def lesson_of(graph: Graph, skill: str, drives: Sequence[Drive]) -> Lesson:
     shown = [drive.task for drive in drives if drive.task in known]
     if not shown:
         why = f"no lesson teaches {skill}, and no recording is of a task of the mind, on which it could be tried"
-        raise ShowingError(why, f"add a curriculum that says: teaches {skill} on TASK for N generations")
+        raise MindError(why, f"add a curriculum that says: teaches {skill} on TASK for N generations")
     return Lesson("", skill, shown[0], skill, 1, False, False, Genetic())
 
 
@@ -150,29 +146,27 @@ def _shown(graph: Graph, skill: Skill, drive: Drive) -> Examples:
 
 
 def _refuse_unshown(graph: Graph, skill: Skill, drives: Sequence[Drive]) -> None:
-    """ShowingError where no tick of the drives has a number for something that a skill reads, or learns to send."""
+    """MindError where no tick of the drives has a number for something that a skill reads, or learns to send."""
     names = in_words(drives) if drives else ""
     if not drives:
-        raise ShowingError("there is no tick in these recordings", "record a drive: mindc view FILE --drive")
+        raise MindError("there is no tick in these recordings", "record a drive: mindc view FILE --drive")
     for edge in skill.edges:
         if edge.output is not None and edge.to == "memory":
             memory = graph.memories[edge.target].name
             why = f"{skill.name} sends to the memory {memory}, and no drive shows what it should remember"
-            raise ShowingError(why, "teach it by a lesson")
+            raise MindError(why, "teach it by a lesson")
     readings = reading_names(graph)
     for place in skill.inputs:
         if all(not np.isfinite(drive.readings[:, place]).any() for drive in drives):
             why = f"{names} has no reading of {readings[place]}, which {skill.name} reads"
-            raise ShowingError(
-                why, f"record a drive in a task that has it, under a master that reads {readings[place]}"
-            )
+            raise MindError(why, f"record a drive in a task that has it, under a master that reads {readings[place]}")
     for edge in skill.edges:
         place, to = edge.target, graph.named(edge.to, edge.target)
         of = [drive.influence if edge.to == "skill" else drive.commands for drive in drives]
         if edge.output is not None and all(not np.isfinite(each[:, place]).any() for each in of):
             what = f"influence of {to}" if edge.to == "skill" else f"command to {to}"
             who = f"a master above {to}" if edge.to == "skill" else "a robot that is not stopped"
-            raise ShowingError(f"{names} has no {what}, which {skill.name} sends", f"record a drive of {who}")
+            raise MindError(f"{names} has no {what}, which {skill.name} sends", f"record a drive of {who}")
 
 
 def _comparable(shown: Sequence[Examples]) -> int:
@@ -228,7 +222,7 @@ def _errors(
             known = np.isfinite(right[:, place])
             to, mean = graph.named(edge.to, edge.target), float(np.nanmean(wanted[:, place]))
             if not known.any():
-                raise ShowingError(f"what was held out shows nothing of {to}", "say more drives, or another --seed")
+                raise MindError(f"what was held out shows nothing of {to}", "say more drives, or another --seed")
             off, spread = right[known, place] - sent[known, place], right[known, place] - mean
             before = float(np.square(spread).sum())
             explained = 1 - float(np.square(off).sum()) / before if before > 0 else None

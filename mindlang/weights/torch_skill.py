@@ -105,11 +105,8 @@ class ReturningClamp(Function):
         return torch.where(leads_on, torch.zeros_like(grad), grad)
 
 
-def _joined(one: Tensor, other: Tensor) -> Tensor:
-    return torch.cat([one, other], -1)
-
-
-TERMS = Terms(OrderedProduct.apply, RationalSigmoid.apply, _joined)  # in which a function says what it computes
+# In which a function says what it computes.
+TERMS = Terms(OrderedProduct.apply, RationalSigmoid.apply, lambda one, other: torch.cat([one, other], -1))
 
 
 class Layer(nn.Module):
