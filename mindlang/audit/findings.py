@@ -8,7 +8,7 @@ import numpy as np
 from mindrun.graph.graph import Task
 from mindrun.graph.run_scores import Scores
 from mindrun.kinds.registry import phrase
-from mindrun.numbers.expression import leaves
+from mindrun.numbers.expression import evaluate, leaves
 from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
 
@@ -198,16 +198,8 @@ class Findings:
     @cached_property
     def _amounts(self) -> list[float]:
         """The number that each line pays at a time, where it is one, else 0; of one per tick its sign is not known."""
-        amounts = []
-        for reward in self.task.rewards:
-            match reward.amount:
-                case (("number", value),):
-                    amounts.append(float(value))
-                case (("number", value), ("negate", _)):
-                    amounts.append(-float(value))
-                case _:
-                    amounts.append(0.0)
-        return amounts
+        programs = [reward.amount for reward in self.task.rewards]
+        return [evaluate(each) if {word for word, _ in each} <= {"number", "negate"} else 0.0 for each in programs]
 
     def _is_of_success(self, line: int) -> bool:
         """True if a line pays for an event that ends a run as a success."""

@@ -89,9 +89,8 @@ def exported(about: dict[str, Any], ticks: dict[str, Any], viewed: Viewed, image
     policy = f'<meta http-equiv="Content-Security-Policy" content="{_policy(script, style)}" />'
     data = {"about": about | {"edits": False}, "ticks": ticks, "rows": viewed.known + 1}
     data |= {"images": images and asdict(images)}
-    inert = json.dumps(data, allow_nan=False).replace("<", "\\u003c")
     body = "\n".join([
-        f'<script type="application/json" id="recording">{inert}</script>',
+        f'<script type="application/json" id="recording">{_inert(data)}</script>',
         f'<script type="text/plain" id="rows">{_rows(viewed)}</script>',
         f"<script>{script}</script>\n  </body>",
     ])  # fmt: skip
@@ -105,6 +104,10 @@ def _policy(script: str, style: str) -> str:
         f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'" for text in (script, style)
     )
     return f"default-src 'none'; script-src {run}; style-src {look}; img-src data:; base-uri 'none'; form-action 'none'"
+
+
+def _inert(data: dict[str, Any]) -> str:
+    return json.dumps(data, allow_nan=False).replace("<", "\\u003c")
 
 
 def _rows(viewed: Viewed) -> str:
