@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 from mindrun.engine.changes import ChangedEngine
-from mindrun.engine.engine import procedure_sources
 from mindrun.engine.think import hierarchy
 from mindrun.errors import MindError
 from mindrun.graph.weights import reachable
@@ -19,7 +18,7 @@ from mindrun.terminal.tick_count import ticks as in_words
 
 from mindlang.attribution.shares import NAMED_PATHS, Contribution, shares
 from mindlang.compiler.diagnostic import did_you_mean, listed
-from mindlang.run.edge_flow import EdgeFlows, Singles, Sink, edge_flows, sink_named
+from mindlang.run.edge_flow import EdgeFlows, Singles, Sink, sink_named
 from mindlang.run.outcome import events, rewards_data, run_names
 from mindlang.run.promises import promises_of
 from mindlang.run.recorded_run import RecordedRun
@@ -52,10 +51,8 @@ class AttributedRun:
 def attributed_run(run: RecordedRun, seed: int) -> AttributedRun:
     """A run in the simulator with its flows."""
     setup = run.setup
-    sources = procedure_sources(run.graph, setup.folder, setup.master)
-    flows = edge_flows(setup.ready.policy, sources, setup.master, run)
     about = run_names(setup.task, setup.master, seed)
-    return AttributedRun(about, flows, run.commands, np.zeros(len(run.commands), bool), run)
+    return AttributedRun(about, setup.flows(run), run.commands, np.zeros(len(run.commands), bool), run)
 
 
 def attributed_recording(path: Path, bundle: Path) -> AttributedRun:

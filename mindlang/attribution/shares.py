@@ -1,6 +1,6 @@
 """Why a command was what it was: what each path of influence from the master down has contributed, exactly.
 
-    flows = edge_flows(policy, procedure_sources(graph, folder, master), master, run)  # a RecordedRun, or any Thought
+    flows = setup.flows(run)  # of a RecordedRun, or of Ticks
     found = shares(flows, sink_named(flows, "left_wheel"), range(811, 812))  # rows from 0: tick 812 of a simulation
 
 A command is a mean that influence weighs, command = Σ I·v / Σ I (Eq. 3), where the influence I of a skill is a sum over

@@ -2,8 +2,6 @@
 
 import secrets
 from collections.abc import Callable, Iterator
-from dataclasses import replace
-from hashlib import sha256
 from itertools import chain, count
 from pathlib import Path
 from typing import Any
@@ -11,18 +9,15 @@ from typing import Any
 import numpy as np
 from mindrun.engine.changes import ChangedEngine
 from mindrun.errors import system_errors_as
-from mindrun.graph.bundle import pack
 from mindrun.graph.draws import drawn_in_words, drawn_numbers
-from mindrun.graph.named_readings import physical
-from mindrun.graph.recording_header import About, RecordedWorld, RecordingError
-from mindrun.graph.wiring import read_by
+from mindrun.graph.recording_header import RecordedWorld, RecordingError
 from mindrun.robot.hand import Hand, Said
 from mindrun.robot.recording import Recorder
 from mindrun.sim.commanded_lanes import CommandedWorld
 from mindrun.terminal.tick_count import ticks as in_words
 from numpy.typing import NDArray
 
-from mindlang.run.recording import bundle_without_robot
+from mindlang.run.recording import about_of, bundle_without_robot
 from mindlang.run.setup import RunSetup
 from mindlang.view.about import Texts
 from mindlang.view.viewed import Viewed
@@ -43,16 +38,10 @@ class DrivenRun:
         self.engine = ChangedEngine(policy, setup.folder, setup.master)
         self.world = CommandedWorld(policy.graph, setup.task.name, seed, setup.master)
         self.hand, self.ticks = hand, 0
-        read, columns = read_by(policy.graph, setup.master), self.world.columns()
-        about = About.of(
-            policy.graph,
-            sha256(pack(self.mind)).hexdigest(),
-            setup.master,
-            [name for name in physical(policy.graph) if name in read],
-        )
+        columns = self.world.columns()
         begin = [*columns["pose"], *columns["things"].ravel()]
         world = RecordedWorld.of(setup.task, seed, self.world.boxes, begin)
-        self.about = replace(about, world=world, by_hand=hand.names)
+        self.about = about_of(setup, self.mind, world, hand.names)
 
     def tick(self, said: Said) -> Rows:
         """Make a tick with these numbers of the hand; its row [1]."""
@@ -63,12 +52,8 @@ class DrivenRun:
         self.world.step(sent)
         row["tick"], row["time"] = self.ticks, (self.ticks + 1) * self.about.tick
         row["armed"], row["ages"] = 1, np.nan  # what is simulated has no age
-        row["readings"], row["influence"], row["commands"], row["sent"] = (
-            engine.readings,
-            engine.influence,
-            commands,
-            sent,
-        )
+        row["readings"], row["influence"] = engine.readings, engine.influence
+        row["commands"], row["sent"] = commands, sent
         for name, value in self.world.columns().items():
             row["world"][name][0] = value
         self.ticks += 1
