@@ -15,8 +15,7 @@ from mindlang.cli._session import Prepared, Ran, RunSession
 from mindlang.executors import Where, scorer_on
 from mindlang.executors.jobs import assignment_of
 from mindlang.lock.status import make_ready
-from mindlang.run.comparison import Benched, compare_minds, differing_tasks
-from mindlang.run.credit import WHOLE, credit_of, given_back, silenced
+from mindlang.run.comparison import WHOLE, Benched, compare_minds, credit_of, differing_tasks, given_back, silenced
 from mindlang.run.outcome import bench_data, over_at_once
 from mindlang.run.paired_difference import CONFIDENCE_LEVEL
 from mindlang.run.promises import FEW_TICKS, MAX_COUNTED_TICKS, promises_in

@@ -81,7 +81,7 @@ def command(file: str, task: str | None, seed: int, search: int, replay: Path | 
 
 def _told(found: "Findings", own: list[Any], seed: int) -> dict[str, Any]:
     """The table of a task, printed unless data are asked for; and its data."""
-    from mindlang.audit.report import audit_data, audit_table
+    from mindlang.audit.findings import audit_data, audit_table
     from mindlang.cli._diagnostic_printer import as_data
 
     if not terminal.is_asked("as_json"):

@@ -112,7 +112,7 @@ def _drive(file: str, bundle: str | None, chosen: RunChoice, names: tuple[str, .
 
     from mindlang.cli._session import RunSession, ensure_compiled, refusing_setups
     from mindlang.run.setup import set_up
-    from mindlang.view.driven_run import DrivenRuns
+    from mindlang.view.viewed_run import DrivenRuns
 
     if bundle is not None or Path(file).is_dir() or file.endswith(".rec"):
         raise click.UsageError("--drive is for a run of a .mind file; a robot is driven by mindrun NAME.bundle --drive")

@@ -102,7 +102,6 @@ def test_weights_are_put_beside_a_graph_in_few_places() -> None:
         "mindlang/training/taught_runs.py": "those of a run, if its mind has them in the order of the subject",
         "mindlang/training/teaching.py": "a run has those of its subject, which is arranged",
         "mindlang/training/retention.py": "a lesson of a subject, which is arranged",
-        "mindlang/training/remarks.py": "a run has those of its subject, which is arranged",
         "mindlang/propose/trial.py": "arranged there, for each candidate",
         "mindlang/view/learning.py": "a run has those of its mind, which is arranged",
         "runtime/mindrun/graph/bundle.py": "a bundle has both, sealed",
