@@ -30,7 +30,6 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.lock.status import trained_weights
 from mindlang.run.drives import Drive, Rows, read_drives
 from mindlang.run.summary import aligned
 from mindlang.training.subject import Subject
@@ -99,11 +98,10 @@ def taken_apart(subject: Subject, paths: Iterable[Path]) -> Iterator[tuple[Drive
     MindError where a recording is of another mind, or a procedure cannot be made ready.
     """
     graph = subject.graph
-    names = [skill.name for skill in graph.skills]
-    policy = Policy(graph, trained_weights(graph, subject.lock, names)[0])
-    sources = {key: text for name in names for key, text in procedure_sources(graph, subject.folder, name).items()}
+    each = (procedure_sources(graph, subject.folder, name) for name in graph.skill_numbers)
+    sources = {key: text for found in each for key, text in found.items()}
     for drive in read_drives(paths, graph):
-        yield drive, mixtures(graph, drive, commands_of(policy, sources, drive))
+        yield drive, mixtures(graph, drive, commands_of(subject.policy, sources, drive))
 
 
 def commands_of(policy: Policy, sources: Sources, drive: Drive) -> dict[str, Doubles]:

@@ -7,6 +7,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from mindrun.graph.graph import Graph, Lesson, Skill
+from mindrun.graph.policy import Policy
 from mindrun.graph.weights import Weights, learners
 from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError
@@ -46,6 +47,11 @@ class Subject:
         """The file as it is called here: from the working directory, where it lies there or below."""
         here = Path.cwd().resolve()
         return self.source.relative_to(here) if self.source.is_relative_to(here) else self.source
+
+    @property
+    def policy(self) -> Policy:
+        """The hierarchy with the weights of all skills that were taught, and fit."""
+        return Policy(self.graph, trained_weights(self.graph, self.lock, [*self.graph.skill_numbers])[0])
 
     def keep_path(self, lesson: Lesson) -> Path:
         """The lock to which goes what a lesson teaches: that of the file in which the lesson stands.
