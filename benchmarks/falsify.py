@@ -22,8 +22,7 @@ from mindrun.processors import cores
 from mindlang.compiler.compile import load
 from mindlang.falsify.failures import Criterion
 from mindlang.falsify.numbers import numbers_of
-from mindlang.falsify.report import found_data, hard_text
-from mindlang.falsify.search import Found, Search
+from mindlang.falsify.search import Found, Search, found_data, hard_text
 from mindlang.run.setup import layouts, run_all, set_up
 
 LINE = Path(__file__).parents[1] / "examples" / "line"

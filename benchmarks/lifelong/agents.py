@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from benchmarks.lifelong.sequence import Stage, TaskSequence, network_on
 from benchmarks.lifelong.teaching import FINISH, Anchored, Curve, Effort, Part, Replay, Timed, teach
-from mindlang.run.credit import NEVER
+from mindlang.run.comparison import NEVER
 
 Known = Mapping[str, NDArray[Any]]
 NET, NOBODY = "Monolith", np.empty((1, 0), np.float32)  # the weights of the network; the genome where nobody learns

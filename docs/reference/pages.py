@@ -7,7 +7,7 @@ from textwrap import fill
 
 from docs.reference.of_kinds import OF_KINDS
 from docs.reference.wiring import wiring_picture
-from mindlang.cli._articles import command_articles
+from mindlang.cli.explain import command_articles
 from mindlang.explaining.article import Article, Parameter
 from mindlang.explaining.collection import codes
 from mindlang.explaining.drivers import driver_articles

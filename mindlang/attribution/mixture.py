@@ -7,10 +7,13 @@ shares of influence. In each span of time shares that are 0 or more, and 1 toget
 difference from the recorded commands is least; neighbouring spans are held together a little.
 """
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
+from string import ascii_uppercase
+from typing import Any
 
 import numpy as np
 from mindrun.engine.engine import procedure_sources
@@ -22,9 +25,13 @@ from mindrun.kinds.functions.function import Stateful
 from mindrun.kinds.procedure_text import Sources
 from mindrun.kinds.sensors.sensor import directions
 from mindrun.numbers.arrays import Doubles
+from mindrun.terminal.command_line import command_line
+from rich.console import Group, RenderableType
+from rich.text import Text
 
-from mindlang.lock.status import trained_weights
+from mindlang.compiler.diagnostic import listed
 from mindlang.run.drives import Drive, Rows, read_drives
+from mindlang.run.summary import aligned
 from mindlang.training.subject import Subject
 
 SPAN_TICKS = 2
@@ -32,10 +39,12 @@ FEWEST_SPANS = 3  # one after the other that nobody explains: fewer are a change
 SMOOTHNESS_SHARE = 1e-3  # of a squared change of shares from span to span, beside a squared error of a command
 SEARCH_STEPS = 1000  # of the search for shares
 LEFT_OVER = 0.05  # nobody explains a span with a greater mean error of a command
-TOLD_SHARE, GAINED_SHARE = (
-    0.1,
-    0.02,
-)  # of the squared differences: explained by readings at least, and gained by each more
+# Of the squared differences: explained by readings at least, and gained by each more.
+TOLD_SHARE, GAINED_SHARE = 0.1, 0.02
+LINE_COLUMNS = 76  # of the line of time
+MOST_STRETCHES = 20
+NOBODY = "."
+HEAD = ("ticks", "mostly", "influence", "error")
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,11 +98,10 @@ def taken_apart(subject: Subject, paths: Iterable[Path]) -> Iterator[tuple[Drive
     MindError where a recording is of another mind, or a procedure cannot be made ready.
     """
     graph = subject.graph
-    names = [skill.name for skill in graph.skills]
-    policy = Policy(graph, trained_weights(graph, subject.lock, names)[0])
-    sources = {key: text for name in names for key, text in procedure_sources(graph, subject.folder, name).items()}
+    each = (procedure_sources(graph, subject.folder, name) for name in graph.skill_numbers)
+    sources = {key: text for found in each for key, text in found.items()}
     for drive in read_drives(paths, graph):
-        yield drive, mixtures(graph, drive, commands_of(policy, sources, drive))
+        yield drive, mixtures(graph, drive, commands_of(subject.policy, sources, drive))
 
 
 def commands_of(policy: Policy, sources: Sources, drive: Drive) -> dict[str, Doubles]:
@@ -107,11 +115,7 @@ def commands_of(policy: Policy, sources: Sources, drive: Drive) -> dict[str, Dou
             continue
         if genes(skill) and skill.owner not in policy.weights:
             continue
-        ready = next(
-            s
-            for s in hierarchy(policy, sources, skill.name).skills
-            if s.index == policy.graph.skill_numbers[skill.name]
-        )
+        ready = hierarchy(policy, sources, skill.name).skills[0]  # the master is first
         if isinstance(ready.compute, Stateful):
             ready.compute.reset()
         sent = np.full((len(drive), len(policy.graph.actuators)), np.nan)
@@ -218,12 +222,8 @@ def telling_readings(graph: Graph, drive: Drive, of: Mixture) -> list[str]:
     chosen: list[str] = []
     best = TOLD_SHARE - GAINED_SHARE
     while rest := [name for name in features if name not in chosen]:
-        told = {
-            name: _explained(
-                [features[each] for each in (*chosen, name)], wanted, is_known & ~is_tested, is_known & is_tested
-            )
-            for name in rest
-        }
+        parts = {name: [features[each] for each in (*chosen, name)] for name in rest}
+        told = {name: _explained(of, wanted, is_known & ~is_tested, is_known & is_tested) for name, of in parts.items()}
         name = max(told, key=told.__getitem__)
         if told[name] < best + GAINED_SHARE:
             break
@@ -251,3 +251,83 @@ def _explained(features: Sequence[Doubles], wanted: Doubles, fitted: Doubles, te
     off, spread = wanted[tested] - inputs[tested] @ weights, wanted[tested] - wanted[fitted].mean(axis=0)
     before = float(np.square(spread).sum())
     return 1 - float(np.square(off).sum()) / before if before > 0 else 0.0
+
+
+def mixture_data(graph: Graph, drive: Drive, found: Sequence[Mixture]) -> list[dict[str, Any]]:
+    """The mixtures of a drive; ticks are counted from 1, and are the rows of the recording."""
+    return [
+        {
+            "drive": drive.name,
+            "ticks": [drive.first + 1, drive.first + len(drive)],
+            "actuators": [*each.actuators],
+            "skills": {name: each.share(name) for name in each.spans[0].shares},
+            "left_over": each.left_over,
+            "stretches": [
+                {
+                    "ticks": [drive.first + span.first + 1, drive.first + span.end],
+                    "by": span.by,
+                    "shares": dict(span.shares),
+                    "error": span.error,
+                }
+                for span in each.stretches()
+            ],
+            "told_by": telling_readings(graph, drive, each),
+        }
+        for each in found
+        if each.spans
+    ]
+
+
+def mixture_text(found: Sequence[dict[str, Any]], recording: str, file: str) -> RenderableType:
+    """Who explains which ticks of a drive, and the skill that could be taught for what nobody does."""
+    return Group(*(part for each in found for part in _lines(each, recording, file)))
+
+
+def _lines(found: dict[str, Any], recording: str, file: str) -> Iterator[RenderableType]:
+    first, last = found["ticks"]
+    names = sorted(found["skills"], key=lambda name: -found["skills"][name])
+    letters = dict(zip(names, ascii_uppercase, strict=False))
+    yield Text.assemble((listed(found["actuators"], "and"), "bold"), f" in ticks {first:,} to {last:,} of {recording}")
+    yield Text(
+        f"left over: {FEWEST_SPANS * SPAN_TICKS} ticks or more that no mean of these is within {LEFT_OVER:g} of", "dim"
+    )
+    yield ""
+    rows = [(letters.get(name, "?"), name, f"{found['skills'][name]:.0%}") for name in names]
+    yield aligned([*rows, (NOBODY, "left over", f"{found['left_over']:.0%}")], (0, 1), ("", "", "influence"))
+    yield ""
+    yield Text(_line_of_time(found, letters))
+    yield ""
+    stretches = sorted(found["stretches"], key=lambda each: each["ticks"][0] - each["ticks"][1])[:MOST_STRETCHES]
+    yield aligned([_row(each) for each in sorted(stretches, key=lambda each: each["ticks"])], (0, 1), HEAD)
+    if (more := len(found["stretches"]) - len(stretches)) > 0:
+        yield Text(f"and {more:,} shorter ones: --json has all", "dim")
+    if found["left_over"] > 0:
+        yield ""
+        yield from _proposal(found, recording, file)
+
+
+def _row(each: dict[str, Any]) -> tuple[str, str, str, str]:
+    first, last = each["ticks"]
+    share = f"{each['shares'][each['by']]:.0%}" if each["by"] else ""
+    return f"{first:,}..{last:,}", each["by"] or "nobody", share, f"{each['error']:.3f}"
+
+
+def _line_of_time(found: dict[str, Any], letters: dict[str, str]) -> str:
+    """A letter for each part of the drive: whose most of it is."""
+    first, last = found["ticks"]
+    parts = [Counter[str]() for _ in range(LINE_COLUMNS)]
+    for each in found["stretches"]:
+        for tick in range(each["ticks"][0], each["ticks"][1] + 1):
+            parts[(tick - first) * LINE_COLUMNS // (last - first + 1)][each["by"]] += 1
+    return "".join(letters.get(part.most_common(1)[0][0], NOBODY) if part else " " for part in parts)
+
+
+def _proposal(found: dict[str, Any], recording: str, file: str) -> Iterator[RenderableType]:
+    if not found["told_by"]:
+        yield Text("What is left over can be told by none of the readings that were recorded.")
+        return
+    told, driven = listed(found["told_by"], "and"), found["actuators"]
+    yield Text(f"What is left over can be told by {told}. A skill for it, and how it learns:")
+    lines = ["skill New is mlp", *(f"  reads {name}" for name in found["told_by"])]
+    yield Text("\n".join(f"  {line}" for line in [*lines, *(f"  drives {name}" for name in driven)]))
+    yield Text(f"  {command_line('mindc', 'imitate', file, 'New', recording)}")

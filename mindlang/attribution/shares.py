@@ -1,6 +1,6 @@
 """Why a command was what it was: what each path of influence from the master down has contributed, exactly.
 
-    flows = edge_flows(policy, procedure_sources(graph, folder, master), master, run)  # a RecordedRun, or any Thought
+    flows = setup.flows(run)  # of a RecordedRun, or of Ticks
     found = shares(flows, sink_named(flows, "left_wheel"), range(811, 812))  # rows from 0: tick 812 of a simulation
 
 A command is a mean that influence weighs, command = Σ I·v / Σ I (Eq. 3), where the influence I of a skill is a sum over
@@ -31,10 +31,6 @@ Linked = tuple[()] | tuple[int, "Linked"]  # edges from an upper one down
 # Of a path that is known: minus the bound of its part, a number, its edges, the upper skill, a part and what of it.
 End = tuple[float, int, Linked, int, Doubles, Doubles]
 MAX_FOLLOWED_EDGES = 200_000  # after which the largest so far are the answer
-
-
-class ReplacedInfluenceError(MindError):
-    """Influence that is other than what was sent, in a run that was changed: no path has made it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +89,7 @@ class Shares:
 def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS) -> Shares:
     """The shares in the command to `target`, or the influence on it, in one row or more, with the `paths` largest.
 
-    IndexError where a row is not there, ReplacedInfluenceError where influence that comes to the target was replaced.
+    IndexError where a row is not there, MindError where influence that comes to the target was replaced.
     It takes as long as thinking these rows does, and for so many paths as long as they are, however many there are in
     all.
     """
@@ -187,13 +183,13 @@ class _Ends(IncomingEdges):
 
 
 def _refuse_replaced(flows: EdgeFlows, flow: EdgeFlow, skills: Sequence[int]) -> None:
-    """ReplacedInfluenceError where a skill has other influence than all above it have sent, and the master 1."""
+    """MindError where a skill has other influence than all above it have sent, and the master 1."""
     for skill in skills:
         sent = accumulated(flow.carried[:, flows.links_to.get(("skill", skill), [])])
         expected = np.ones_like(sent) if skill == flows.skills[0] else sent
         if not np.array_equal(expected, flow.influence[:, skill], equal_nan=True):
             name = flows.graph.skills[skill].name
-            raise ReplacedInfluenceError(
+            raise MindError(
                 f"the influence of {name} was replaced: nobody sent it", "Ask about the run as it is without that."
             )
 

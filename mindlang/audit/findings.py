@@ -1,23 +1,28 @@
-"""Findings: what the probes of a task say of its reward lines, each a warning at the line that pays."""
+"""Findings: what the probes of a task say of its reward lines, each a warning at the line that pays; and the report."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from mindrun.graph.graph import Task
 from mindrun.graph.run_scores import Scores
 from mindrun.kinds.registry import phrase
-from mindrun.numbers.expression import leaves
+from mindrun.numbers.expression import evaluate, leaves
 from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
+from rich.console import Group as Rows
+from rich.console import RenderableType
+from rich.text import Text
 
-from mindlang.audit.probes import Evidence, Values
+from mindlang.audit.probes import Evidence, Group, Values
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Counts, of_form
-from mindlang.number_format import score as shown
+from mindlang.number_format import finite, score
+from mindlang.run.summary import aligned, shortened
 
 LOOPHOLE_SHARE = 0.1  # of the best score, for nothing that is counted
 NEARLY_NOTHING_SHARE = 0.05  # of the best count: as of who runs into something by chance
@@ -27,6 +32,8 @@ FELT_PAIRS_SHARE, FELT_SHARE, TIE_SHARE = 0.002, 0.01, 1e-5  # of pairs of polic
 CHAMPION_SHARE = 0.5  # of the most that anybody brings about
 SIMPLEST_FIRST = ("still", "moving", "to and fro", "skill", "found", "random")
 ROUNDING_DIGITS = 9  # behind the point, of scores that are compared
+SHOWN: dict[Group, int] = {"still": 1, "moving": 3, "to and fro": 1, "random": 2, "found": 1, "skill": 5}
+NAME_COLUMNS, LINE_COLUMNS = 30, 26
 
 
 @dataclass(frozen=True)
@@ -118,11 +125,12 @@ class Findings:
 
     def loopholes(self) -> Iterator[Diagnostic]:
         """Lines that pay for nothing that is counted."""
+        counted = [phrase(self.task.events[event]) for event in self.goods] + ["success"] * self.task.can_succeed
         for line, row in self.loophole_rows.items():
             paid = self.evidence.lines[row, line]
             message = (
-                f"This pays {shown(paid)} to {self._who(row)}, which {self._does_not()}; "
-                f"the best comes to {shown(self.best)}."
+                f"This pays {score(paid)} to {self._who(row)}, which brings about no {' and no '.join(counted)}; "
+                f"the best comes to {score(self.best)}."
             )
             hint = "Pay for what is counted, or for progress toward it, which takes back on the way away what it gave."
             yield self._warning("loophole", self._line(line), message, hint)
@@ -138,7 +146,7 @@ class Findings:
             costly = np.median(self.evidence.lines[moving], axis=0) - self.evidence.lines[row]
             share = np.mean(scores[moving] > scores[row])
             message = (
-                f"Standing still has {shown(scores[row])}, the median of what moves {shown(middle)}: {share:.0%} of "
+                f"Standing still has {score(scores[row])}, the median of what moves {score(middle)}: {share:.0%} of "
                 "what moves does better. This makes most of the difference."
             )
             hint = "Punish less, pay less for standing still, or begin with a lesson in which less goes wrong."
@@ -154,7 +162,7 @@ class Findings:
             gained = min(more[line], self.evidence.lines[rows[0], line], float(more.sum()))
             least = FARMED_ONE_WAY_SHARE if self._is_one_way(line) else FARMED_SHARE
             if reward.on is None and line not in self.loophole_rows and gained >= least * self.best:
-                message = f"This pays {shown(more[line], 3)} more to who goes to and fro than to who stands still."
+                message = f"This pays {score(more[line], 3)} more to who goes to and fro than to who stands still."
                 hint = "Take it back on the way away: progress is advance less retreat."
                 yield self._warning("farmable", self._line(line), message, hint)
 
@@ -189,24 +197,16 @@ class Findings:
                 spreads = np.ptp(self.evidence.lines, axis=0)
                 above = int(spreads.argmax())
                 message = (
-                    f"No policy feels this: it makes a difference of {shown(float(spreads[line]), 3)} at most, where "
-                    f"{self.task.rewards[above].text!r} makes one of {shown(float(spreads[above]))}."
+                    f"No policy feels this: it makes a difference of {score(float(spreads[line]), 3)} at most, where "
+                    f"{self.task.rewards[above].text!r} makes one of {score(float(spreads[above]))}."
                 )
                 yield self._warning("dominated", self._line(line), message, "Pay more for it, or take it out.")
 
     @cached_property
     def _amounts(self) -> list[float]:
         """The number that each line pays at a time, where it is one, else 0; of one per tick its sign is not known."""
-        amounts = []
-        for reward in self.task.rewards:
-            match reward.amount:
-                case (("number", value),):
-                    amounts.append(float(value))
-                case (("number", value), ("negate", _)):
-                    amounts.append(-float(value))
-                case _:
-                    amounts.append(0.0)
-        return amounts
+        programs = [reward.amount for reward in self.task.rewards]
+        return [evaluate(each) if {word for word, _ in each} <= {"number", "negate"} else 0.0 for each in programs]
 
     def _is_of_success(self, line: int) -> bool:
         """True if a line pays for an event that ends a run as a success."""
@@ -243,12 +243,64 @@ class Findings:
                 return "what the search has found"
         return f"the random genome {number + 1}"
 
-    def _does_not(self) -> str:
-        counted = [phrase(self.task.events[event]) for event in self.goods] + ["success"] * self.task.can_succeed
-        return f"brings about no {' and no '.join(counted)}"
-
     def _line(self, line: int) -> Span:
         return self.of.rewards[line].fact.span
 
     def _warning(self, code: str, span: Span, message: str, hint: str) -> Diagnostic:
         return Diagnostic(code, f"{self.task.name}: {message}", span, hint, severity="warning")
+
+
+def audit_data(found: Findings, seed: int) -> dict[str, Any]:
+    """What was tried, and what each line paid at least and at most; the findings are told apart."""
+    lines = found.evidence.lines
+    sums = [{"line": each.text, "least": float(lines[:, i].min()), "most": float(lines[:, i].max())}
+            for i, each in enumerate(found.task.rewards)]  # fmt: skip
+    return {
+        "task": found.task.name,
+        "seed": seed,
+        "policies": [row(found, number) for number in np.argsort(-found.evidence.scores, kind="stable")],
+        "lines": sums,
+        "is_counted": found.is_counted,
+    }
+
+
+def row(found: Findings, number: int) -> dict[str, Any]:
+    """A policy that was tried, as a row of a report: the line that pays it most, and how much."""
+    probe, genome = found.evidence.origins[number]
+    paid = found.evidence.lines[number]
+    most = int(paid.argmax())
+    return {
+        "name": f"{probe.name} {genome + 1}" if len(probe.genomes) > 1 else probe.name,
+        "group": probe.group,
+        "score": finite(found.evidence.scores[number]),
+        "count": float(found.counts[number]),
+        "line": found.task.rewards[most].text,
+        "paid": float(paid[most]),
+    }
+
+
+def audit_table(found: Findings) -> RenderableType:
+    """The best of each group, with what they counted and the line that pays them most."""
+    rows = [
+        (
+            shortened(each["name"], NAME_COLUMNS),
+            score(each["score"]),
+            f"{each['count']:.2f}" if found.is_counted else "–",
+            score(each["paid"]),
+            shortened(each["line"].removeprefix("rewards "), LINE_COLUMNS),
+        )
+        for each in _chosen(found)
+    ]
+    table = aligned(rows, (0, 4), (found.task.name, "score", "count", "paid", "most by"))
+    note = "nothing is counted, so that nothing can be said of points without it"
+    return Rows(table, *([] if found.is_counted else [Text(note, "dim")]))
+
+
+def _chosen(found: Findings) -> Iterator[dict[str, Any]]:
+    order = np.argsort(-found.evidence.scores, kind="stable")
+    for group, most in SHOWN.items():
+        of = [number for number in order if found.evidence.of(group)[number]]
+        if group == "still":  # the one at rest; others only move what moves nothing
+            of = of and [int(np.flatnonzero(found.evidence.of("still"))[0])]
+        alike = {(found.evidence.scores[number], found.counts[number]): number for number in reversed(of)}
+        yield from (row(found, int(number)) for number in [*reversed(alike.values())][:most])

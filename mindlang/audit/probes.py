@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
 from itertools import product
 from pathlib import Path
 from typing import Literal
@@ -99,7 +98,6 @@ class Evidence:
 
 
 def evidence(task: Task, probe: Probe, scores: Scores) -> Evidence:
-    """The means of a probe's runs."""
     lines = scores.by_line[:, :, : len(task.rewards)].mean(axis=1)
     success = np.asarray(succeeded(task, scores), np.float64).mean(axis=1)
     good = np.flatnonzero(~scores.faults.any(axis=1) & np.isfinite(scores.total).all(axis=1))
@@ -149,9 +147,9 @@ def skill_probes(policy: Policy) -> Iterator[Probe]:
             yield Probe(skill.name, "skill", _under(policy, skill.name))
 
 
-def random_probes(policy: Policy, task: Task, seed: int, count: int = RANDOM_GENOMES) -> Iterator[Probe]:
+def random_probes(policy: Policy, task: Task, seed: int) -> Iterator[Probe]:
     """Random genomes of what the task's first lesson teaches, and of all that has no weights below its master."""
-    count = min(count, OUTSIDE_GENOMES) if task.scene.environment else count
+    count = OUTSIDE_GENOMES if task.scene.environment else RANDOM_GENOMES
     if (found := learning_probe(policy, task)).learners:
         rng = np.random.default_rng(seed)
         skills = {skill.name: skill for skill in policy.graph.skills}
@@ -182,7 +180,7 @@ def command_probes(policy: Policy) -> Iterator[Probe]:
         if commands != rest:
             yield Probe(name, "moving" if moves else "still", _driven(policy, commands))
     if moving := _moving(graph):
-        there = tuple(1.0 if i in moving else rest[i] for i in range(len(rest)))
+        there = tuple(1.0 if i in moving else command for i, command in enumerate(rest))
         yield Probe("to and fro", "to and fro", _driven(policy, there, TO_AND_FRO_TICKS))
 
 
@@ -196,31 +194,19 @@ def _commands(graph: Graph, rest: Sequence[float]) -> Iterator[tuple[float, ...]
     levels = [sorted({0.0, neutral, 1.0}) for neutral in rest]
     moving = _moving(graph)
 
-    def with_moving(value: Callable[[int], float]) -> tuple[float, ...]:
-        return tuple(value(i) if i in moving else rest[i] for i in range(len(rest)))
+    def with_moving(commands: Sequence[float]) -> tuple[float, ...]:
+        return tuple(commands[i] if i in moving else rest[i] for i in range(len(rest)))
 
     if np.prod([len(each) for each in levels]) <= MAX_CORNERS:
         yield from product(*levels)
     else:
         for i, level in enumerate(levels):
             yield from ((*rest[:i], value, *rest[i + 1 :]) for value in level)
-        yield from (with_moving(partial(_same, value)) for value in (0.0, 1.0))
+        yield from (with_moving([value] * len(rest)) for value in (0.0, 1.0))
     for off in (OFF_NEUTRAL, -OFF_NEUTRAL):
-        yield with_moving(partial(_moved, rest, off))
+        yield with_moving([min(1.0, max(0.0, command + off)) for command in rest])
     for aside in moving if len(moving) > 1 else ():
-        yield with_moving(partial(_arc, aside))
-
-
-def _same(value: float, actuator: int) -> float:
-    return value
-
-
-def _moved(rest: Sequence[float], off: float, actuator: int) -> float:
-    return min(1.0, max(0.0, rest[actuator] + off))
-
-
-def _arc(aside: int, actuator: int) -> float:
-    return 1.0 - ARC_COMMAND * (actuator == aside)
+        yield with_moving([1.0 - ARC_COMMAND * (i == aside) for i in range(len(rest))])
 
 
 def _under(policy: Policy, master: str) -> Policy:
@@ -235,20 +221,14 @@ def _driven(policy: Policy, commands: Sequence[float], period: int = 0) -> Polic
     graph = policy.graph
     memories, edges = graph.memories, list[Edge]()
     for i, value in enumerate(commands):
-        program: Program = (("number", float(value)),)
-        if period and i in _moving(graph):
-            edges.append(
-                Edge("actuator", i, None, program, Gate(_before(graph.width, 0.5), (("number", 1.0 - value),)))
-            )
-        else:
-            edges.append(Edge("actuator", i, None, program))
+        back = Gate(_before(graph.width, 0.5), (("number", 1.0 - value),)) if period and i in _moving(graph) else None
+        edges.append(Edge("actuator", i, None, (("number", float(value)),), back))
     if period:
         memories = (*memories, Memory(TURN, Cell(decay=0.0), graph.width))
         more: Program = (("reading", graph.width), ("number", 1.0 / period), ("+", 0))
         last = 1.0 - 1.5 / period
-        edges.append(
-            Edge("memory", len(graph.memories), None, more, Gate(_before(graph.width, last), (("number", 0.0),)))
-        )
+        ends = Gate(_before(graph.width, last), (("number", 0.0),))
+        edges.append(Edge("memory", len(graph.memories), None, more, ends))
     skill = Skill(PROBE, Rule(), (), tuple(edges))
     return Policy(replace(graph, memories=memories, skills=(*graph.skills, skill), master=PROBE), policy.weights)
 

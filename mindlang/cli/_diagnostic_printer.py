@@ -42,7 +42,6 @@ def _place(span: Span) -> dict[str, Any]:
 
 
 def segments(diagnostic: Diagnostic) -> Iterator[Segment]:
-    """A diagnostic as texts with their styles."""
     if diagnostic.span:
         yield f"{_where(diagnostic.span)}: ", "bold"
     yield f"{diagnostic.severity}: ", "red" if diagnostic.severity == "error" else "yellow"

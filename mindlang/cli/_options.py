@@ -36,7 +36,6 @@ class LayoutOption(WholeOption):
     """The seed of one run, or which of those of `mindc bench`: 2/17 is the 17th of those from seed 2."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The seed."""
         seed, slash, number = str(value).partition("/")
         if not slash:
             return super().convert(value, param, ctx)

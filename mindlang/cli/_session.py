@@ -121,7 +121,6 @@ class RunSession:
         return counting(what, total, self.quiet)
 
     def say(self, *lines: str) -> None:
-        """Print lines on stderr."""
         if not self.quiet:
             terminal.tell(*lines)
 

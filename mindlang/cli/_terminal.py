@@ -99,6 +99,15 @@ def refusing(
         fail(f"{error}{end}", error.hint, code)
 
 
+@contextmanager
+def refusing_lessons(end: str = "") -> Iterator[None]:
+    """End the program with the message of an error about what is taught, and `end` behind it; with 2 for a name."""
+    from mindrun.train import NotFoundError
+
+    with refusing(end=end), refusing(MISUSE, end, of=NotFoundError):
+        yield
+
+
 def print_result(data: object, text: Callable[[], RenderableType], end: str = "\n") -> None:
     """Print the result of a command on stdout: its data as one JSON document where that is asked for, or its text."""
     if is_asked("as_json"):
@@ -117,7 +126,6 @@ def print_table(table: RenderableType) -> None:
 
 
 def print_json(value: object) -> None:
-    """Print one JSON document on stdout."""
     print_document(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
 
 

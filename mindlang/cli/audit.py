@@ -21,7 +21,7 @@ from mindlang.cli import _options as options
 from mindlang.cli import _terminal as terminal
 
 if TYPE_CHECKING:
-    from mindrun.graph.graph import Task
+    from mindrun.graph.graph import Graph, Task
     from mindrun.graph.policy import Policy
 
     from mindlang.audit.findings import Findings
@@ -58,13 +58,15 @@ def command(file: str, task: str | None, seed: int, search: int, replay: Path | 
     nothing was found, with 1 where something was.
     """
     from mindlang.cli._session import RunSession, refusing_setups
+    from mindlang.training.subject import open_subject
 
     session, compiled = RunSession(), terminal.load_compiled(file)
     if replay:
         terminal.refuse_unwritable(replay, ".rec")
     found, data = list[Any](), list[dict[str, Any]]()
     with refusing_setups(), terminal.procedures_talk():
-        policy, tasks = _chosen(compiled, task)
+        policy = open_subject(Path(file), compiled).policy
+        tasks = _chosen(policy.graph, task)
         audited = [_audited(session, compiled, policy, each, (seed, search, workers or cores())) for each in tasks]
         for each in audited:
             found += (own := each.all())
@@ -81,7 +83,7 @@ def command(file: str, task: str | None, seed: int, search: int, replay: Path | 
 
 def _told(found: "Findings", own: list[Any], seed: int) -> dict[str, Any]:
     """The table of a task, printed unless data are asked for; and its data."""
-    from mindlang.audit.report import audit_data, audit_table
+    from mindlang.audit.findings import audit_data, audit_table
     from mindlang.cli._diagnostic_printer import as_data
 
     if not terminal.is_asked("as_json"):
@@ -89,23 +91,14 @@ def _told(found: "Findings", own: list[Any], seed: int) -> dict[str, Any]:
     return audit_data(found, seed) | {"findings": [as_data(each) for each in own]}
 
 
-def _chosen(compiled: "Compiled", name: str | None) -> "tuple[Policy, list[Task]]":
-    """The mind with all weights of its locks, and the tasks to audit; SetupError where there are none."""
-    from mindrun.graph.policy import Policy
-
-    from mindlang.lock import lock_sources, read_locks
-    from mindlang.lock.signature import arrange
-    from mindlang.lock.status import trained_weights
+def _chosen(graph: "Graph", name: str | None) -> "list[Task]":
+    """The tasks to audit; SetupError where there are none."""
     from mindlang.run.chosen_task import SetupError, task_of
 
-    _, graph = compiled.whole
-    lock = read_locks(lock_sources(compiled.sources))
-    graph = arrange(graph, lock)
-    policy = Policy(graph, trained_weights(graph, lock, [skill.name for skill in graph.skills])[0])
     tasks = [task_of(graph, name)[0]] if name else [each for each in graph.tasks if each.rewards]
     if not tasks or not tasks[0].rewards:
         raise SetupError(f"{name or 'no task'} pays nothing", "add a line such as rewards 10 on reach of object", True)
-    return policy, tasks
+    return tasks
 
 
 def _audited(

@@ -65,7 +65,7 @@ def command(
     with 1 where a run has failed.
     """
     from mindlang.cli._session import RunSession
-    from mindlang.falsify.report import found_data, found_summary
+    from mindlang.falsify.search import found_data, found_summary
 
     if said["seconds"] is not None:
         options.refuse_ineffective("left out with --for: the time says how many", "runs")
@@ -91,7 +91,7 @@ def _as_written(said: dict[str, Any]) -> list[str]:
 
 def _write(session: "RunSession", path: Path, found: "Found", words: Sequence[str | Path]) -> None:
     """Write the layouts that failed, or say that there are none."""
-    from mindlang.falsify.report import hard_runs, hard_text
+    from mindlang.falsify.search import hard_runs, hard_text
 
     if count := len(hard_runs(found)):
         terminal.write_file(path, hard_text(found, command_line("mindc", "falsify", *words)).encode())

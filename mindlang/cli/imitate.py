@@ -56,8 +56,6 @@ def _imitated(
     file: str, skill: str, recordings: Sequence[Path], seed: int, force: bool
 ) -> "tuple[Imitation, Imported]":
     """The weights that a skill learns from recordings, and what became of them in its lesson."""
-    from mindrun.train import NotFoundError
-
     from mindlang.cli._session import RunSession, ensure_compiled
     from mindlang.run.drives import read_drives
     from mindlang.training.subject import open_subject
@@ -67,11 +65,7 @@ def _imitated(
     from mindlang.weights.network import network_of
 
     session = RunSession()
-    with (
-        terminal.refusing(end="."),
-        terminal.refusing(terminal.MISUSE, ".", of=NotFoundError),
-        terminal.procedures_talk(),
-    ):
+    with terminal.refusing_lessons(end="."), terminal.procedures_talk():
         subject = open_subject(Path(file), terminal.load_compiled(file))
         network, drives = network_of(subject.graph, skill), read_drives(recordings, subject.graph)
         lesson = lesson_of(subject.graph, skill, drives)

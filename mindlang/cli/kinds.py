@@ -17,7 +17,6 @@ from mindlang.explaining.article import Article
 
 
 def _known() -> tuple[Article, ...]:
-    """The articles of all kinds and drivers."""
     from mindlang.explaining.drivers import driver_articles
     from mindlang.explaining.kinds import kind_articles
 

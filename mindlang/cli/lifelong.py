@@ -14,7 +14,7 @@ import click
 from mindrun.processors import cores
 
 from mindlang.cli import _options as options
-from mindlang.cli._terminal import MISUSE, load_compiled, print_result, procedures_talk, refuse_standard_input, refusing
+from mindlang.cli._terminal import load_compiled, print_result, procedures_talk, refuse_standard_input, refusing_lessons
 
 CELL_COLUMNS, LINE_COLUMNS = 7, 80
 LONG_MEAN = 999.95  # from which on a mean has no decimal
@@ -36,7 +36,6 @@ def command(file: str, runs: Path, layouts: int, seed: int, workers: int | None)
     scores where it counts nothing; `kept` is what is left in the end of what a task had after the last lesson that
     taught it. Runs the Python code of the file's procedures.
     """
-    from mindrun.train import NotFoundError
     from rich.text import Text
 
     from mindlang.cli._session import RunSession, ensure_compiled
@@ -46,7 +45,7 @@ def command(file: str, runs: Path, layouts: int, seed: int, workers: int | None)
 
     refuse_standard_input(file, "Standard input has no runs: they are kept of a file.")
     session, compiled = RunSession(), load_compiled(file)
-    with refusing(), refusing(MISUSE, of=NotFoundError), procedures_talk():
+    with refusing_lessons(), procedures_talk():
         subject = open_subject(Path(file), compiled)
         taught, others = taught_runs(subject, runs)
         if others:

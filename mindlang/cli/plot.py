@@ -14,7 +14,7 @@ from pathlib import Path
 import click
 
 from mindlang.cli._options import PATH, flag, json_flag, quiet_flag, written
-from mindlang.cli._terminal import MISUSE, is_asked, need, print_json, refuse_unwritable, refusing, write_file
+from mindlang.cli._terminal import is_asked, need, print_json, refuse_unwritable, refusing_lessons, write_file
 
 
 @click.command
@@ -34,14 +34,12 @@ def command(runs: tuple[Path, ...], output: Path, mean: bool, ticks: bool) -> No
     With --mean, runs of one lesson of the same mind, begun with different seeds, become one panel: the mean over all
     their attempts, and a band of its standard error. An attempt that has ended or was given up keeps what it had last.
     """
-    from mindrun.train import NotFoundError
-
     from mindlang.pictures.learning_log import along_ticks, by_lesson, load_curves
     from mindlang.training.standstill import idle_note
 
     need("matplotlib", "Curves are drawn with", "plot")
     refuse_unwritable(output, ".svg", ".png")
-    with refusing(), refusing(MISUSE, of=NotFoundError):
+    with refusing_lessons():
         loaded = load_curves(runs)
         curves = [*map(along_ticks, loaded)] if ticks else loaded
 

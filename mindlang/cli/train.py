@@ -27,7 +27,7 @@ import click
 from mindlang import limits
 from mindlang.cli import _options as options
 from mindlang.cli._options import NumberOption, WholeOption, flag
-from mindlang.cli._terminal import INTERRUPTED, MISUSE, OK, fail, need, refuse_standard_input, refusing
+from mindlang.cli._terminal import INTERRUPTED, MISUSE, OK, fail, need, refuse_standard_input, refusing_lessons
 
 
 @click.command
@@ -65,8 +65,6 @@ def command(file: str | None, skills: tuple[str, ...], resume: Path | None, forc
     --seed. Its progress.csv has a row for each generation. The weights go to the lock of the file in which the lesson
     stands, or to the one that says them now.
     """
-    from mindrun.train import NotFoundError
-
     from mindlang.cli._trainer import Trainer
     from mindlang.training.lesson_choice import TrainOptions
 
@@ -76,7 +74,7 @@ def command(file: str | None, skills: tuple[str, ...], resume: Path | None, forc
     if said["event_files"]:
         need("tensorboardX", "Event files are written with", "tensorboard")
     trainer, numbers = options.taken(Trainer, said), options.taken(TrainOptions, said)
-    with refusing(), refusing(MISUSE, of=NotFoundError):
+    with refusing_lessons():
         if resume:
             finished = trainer.resume(resume, force)
         else:

@@ -112,7 +112,7 @@ def _drive(file: str, bundle: str | None, chosen: RunChoice, names: tuple[str, .
 
     from mindlang.cli._session import RunSession, ensure_compiled, refusing_setups
     from mindlang.run.setup import set_up
-    from mindlang.view.driven_run import DrivenRuns
+    from mindlang.view.viewed_run import DrivenRuns
 
     if bundle is not None or Path(file).is_dir() or file.endswith(".rec"):
         raise click.UsageError("--drive is for a run of a .mind file; a robot is driven by mindrun NAME.bundle --drive")
@@ -141,13 +141,11 @@ def _texts(compiled: "Compiled") -> "Texts":
 @terminal.procedures_talk()
 def training_view(folder: Path, seed: int | None) -> "tuple[Viewed, Learning]":
     """The champion of a training's folder that was found last, at its beginning, and all others."""
-    from mindrun.train import NotFoundError
-
     from mindlang.cli._session import RunSession, ensure_compiled
     from mindlang.view.learning import open_learning
     from mindlang.view.messages import RefusedError
 
-    with terminal.refusing(), terminal.refusing(terminal.MISUSE, of=NotFoundError):
+    with terminal.refusing_lessons():
         try:
             learning = open_learning(folder, secrets.randbits(31) if seed is None else seed)
             number, attempt, generation = learning.newest()

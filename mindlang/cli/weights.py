@@ -55,17 +55,11 @@ def import_weights(file: str, skill: str, weights: Path, recording: str | None, 
       mindc weights import collect.mind GoToObject goto.safetensors --recording day.rec,collect.bundle
       mindc weights import collect.mind GoToObject goto.safetensors --force --json
     """
-    from mindrun.train import NotFoundError
-
     from mindlang.cli._session import RunSession, ensure_compiled
     from mindlang.weights import importing
 
     subject, session = _subject(file), RunSession()
-    with (
-        terminal.refusing(end="."),
-        terminal.refusing(terminal.MISUSE, ".", of=NotFoundError),
-        terminal.procedures_talk(),
-    ):
+    with terminal.refusing_lessons(end="."), terminal.procedures_talk():
         trial = importing.open_trial(subject, skill, weights)
         ensure_compiled(trial.rollout, session.say)
         found = importing.import_weights(trial, recording, force)

@@ -78,8 +78,7 @@ def _compare_runs(file: str, chosen: RunChoice, request: "Request", picture: Pat
     from mindrun.engine.changes import ChangeError
 
     from mindlang.cli._session import RunSession, refusing_recordings
-    from mindlang.whatif.comparison import compare_runs
-    from mindlang.whatif.report import comparison_data, comparison_summary
+    from mindlang.whatif.comparison import compare_runs, comparison_data, comparison_summary
     from mindlang.whatif.request import changes_of
 
     session, seed, theirs = RunSession(), 1 if chosen.seed is None else chosen.seed, None
@@ -131,8 +130,7 @@ def _compare_recorded(path: Path, bundle: Path, request: "Request") -> None:
     from mindlang.cli._session import refusing_recordings
     from mindlang.run.recording import bundle_without_robot
     from mindlang.run.setup import ready_to_act
-    from mindlang.whatif.open_loop import compare_recording
-    from mindlang.whatif.report import recording_data, recording_summary
+    from mindlang.whatif.comparison import compare_recording, recording_data, recording_summary
 
     with refusing_recordings():
         other = None

@@ -68,8 +68,7 @@ def command(
     if skills:
         take_apart(words)
         return
-    from mindlang.attribution.answer import QuestionError, answer
-    from mindlang.attribution.report import answer_text
+    from mindlang.attribution.answer import QuestionError, answer, answer_text
 
     *files, what = words
     attributed = attributed_files(files, chosen)
@@ -102,8 +101,7 @@ def where_runs_end(words: Sequence[str], chosen: options.RunChoice, runs: int) -
     """Make many runs, and print what the last ticks of those have in common that are over before their time."""
     from mindrun.sim.codes import GOING_ON
 
-    from mindlang.attribution.ends import ends_data, run_ends
-    from mindlang.attribution.ends_report import ends_text
+    from mindlang.attribution.ends import ends_data, ends_text, run_ends
     from mindlang.cli._session import RunSession, refusing_setups
 
     options.refuse_ineffective("not for --ends, which looks at last ticks alone", "tick", "paths", "interrupt")
@@ -125,8 +123,7 @@ def where_runs_end(words: Sequence[str], chosen: options.RunChoice, runs: int) -
 
 def take_apart(words: Sequence[str]) -> None:
     """Print which skills explain a drive, and what is left over."""
-    from mindlang.attribution.mixture import taken_apart
-    from mindlang.attribution.mixture_report import mixture_data, mixture_text
+    from mindlang.attribution.mixture import mixture_data, mixture_text, taken_apart
     from mindlang.cli._session import refusing_recordings
     from mindlang.cli._terminal import fail, load_compiled
     from mindlang.training.subject import open_subject

@@ -17,15 +17,14 @@ if TYPE_CHECKING:
     from mindlang.environments.registration import register as register
     from mindlang.environments.stable_baselines import StableBaselinesEnv as StableBaselinesEnv
     from mindlang.environments.task_env import TaskEnv as TaskEnv
-    from mindlang.environments.task_vector_env import TaskVectorEnv as TaskVectorEnv
+    from mindlang.environments.task_env import TaskVectorEnv as TaskVectorEnv
 
 __all__ = ["StableBaselinesEnv", "TaskEnv", "TaskVectorEnv", "register"]
 _found = lazy_names(
     __name__,
     {
         f"{__name__}.registration": ("register",),
-        f"{__name__}.task_env": ("TaskEnv",),
-        f"{__name__}.task_vector_env": ("TaskVectorEnv",),
+        f"{__name__}.task_env": ("TaskEnv", "TaskVectorEnv"),
         f"{__name__}.stable_baselines": ("StableBaselinesEnv",),
     },
 )

@@ -35,6 +35,6 @@ def _register(name: str, words: dict[str, Any]) -> None:
         gymnasium.register(
             id=name,
             entry_point=f"{PACKAGE}.task_env:TaskEnv",
-            vector_entry_point=f"{PACKAGE}.task_vector_env:TaskVectorEnv",
+            vector_entry_point=f"{PACKAGE}.task_env:TaskVectorEnv",
             kwargs=words,
         )

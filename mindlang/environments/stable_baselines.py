@@ -7,7 +7,7 @@ import numpy as np
 from gymnasium.vector import AutoresetMode
 from stable_baselines3.common.vec_env import VecEnv
 
-from mindlang.environments.task_vector_env import TaskVectorEnv
+from mindlang.environments.task_env import TaskVectorEnv
 from mindlang.run.setup import layouts
 
 Indices = None | int | Iterable[int]

@@ -120,7 +120,6 @@ class Member:
             self._context.process.kill()
 
     def end(self) -> None:
-        """End the process, and wait for that."""
         self.kill()
         if self._pool is not None:
             self._pool.shutdown(cancel_futures=True)

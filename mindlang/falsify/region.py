@@ -51,7 +51,6 @@ class Tried:
     weights: Doubles
 
     def share(self, box: Box) -> float:
-        """The share of failures in a box."""
         held = box.holds(self.drawn)
         return float(self.weights[held & self.failed].sum() / max(self.weights[held].sum(), np.finfo(float).tiny))
 

@@ -12,14 +12,13 @@ from statistics import fmean
 from typing import Literal
 
 import numpy as np
-from mindrun.engine.engine import procedure_sources
 from mindrun.graph.graph import Sensor
 from mindrun.graph.weights import reachable
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, Region, text_width
 from mindlang.pictures.theme import NIGHT, Colour, mixed
-from mindlang.run.edge_flow import Link, Sink, edge_flows
+from mindlang.run.edge_flow import Link, Sink
 from mindlang.run.recorded_run import RecordedRun
 
 BEND = np.linspace(0.0, 1.0, 24)
@@ -38,8 +37,7 @@ class HierarchyPanel:
 
     def __init__(self, run: RecordedRun, room: Region) -> None:
         self._run = run
-        sources = procedure_sources(run.graph, run.setup.folder, run.setup.master)
-        self._flows = edge_flows(run.setup.ready.policy, sources, run.setup.master, run)
+        self._flows = run.setup.flows(run)
         self._boxes, self._stops = laid_out(self._flows.links, self._flows.skills, room)
         # A skill's number stands below its name, any other's behind it.
         names = {sink: run.graph.named(*sink) for sink in self._boxes}

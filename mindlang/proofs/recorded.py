@@ -4,13 +4,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from mindrun.engine.engine import procedure_sources
 from mindrun.graph.scopes import influence_scopes
 from mindrun.numbers.arrays import Singles
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import joined, trace
 
-from mindlang.run.edge_flow import edge_flows
 from mindlang.run.setup import RunSetup
 
 
@@ -43,8 +41,7 @@ def record_undriven(setup: RunSetup, seed: int, prepare: Callable[[Rollout], Non
     influence = np.zeros_like(ticks.commands)  # on each actuator
     graph = rollout.graph
     if len(influence_scopes(graph).without) > 1:
-        sources = procedure_sources(graph, setup.folder, setup.master)
-        flows = edge_flows(setup.ready.policy, sources, setup.master, ticks)
+        flows = setup.flows(ticks)
         drivers = [(place, link.target[1]) for place, link in enumerate(flows.links) if link.target[0] == "actuator"]
         for part, flow in flows.parts(np.arange(len(ticks))):
             for place, actuator in drivers:

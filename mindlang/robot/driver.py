@@ -147,7 +147,6 @@ def example(option: DriverOption) -> str:
 
 
 def _shipped(cls: Callable[..., Any], noun: str, **options: Any) -> tuple[Any, Timing]:
-    """A driver of mindrun, and its timing."""
     driver = cls(**options)
     return driver, timing_of(driver, noun)
 

@@ -11,6 +11,8 @@ from mindrun.graph.wiring import ON_BROKEN, ActuatorWire, SensorWire
 from mindrun.kinds.registry import kinds
 from mindrun.numbers.quantity import NUMBER, Quantity, Reference
 
+from mindlang.robot.read import texts
+
 DRIVER = "driver"
 OWN_NAME = re.compile(r"^[A-Za-z_][A-Za-z0-9_]*\.[A-Za-z_][A-Za-z0-9_]*$")  # FILE.CLASS, or PACKAGE.NAME
 WORD = Reference("text")
@@ -27,22 +29,6 @@ ANY_AMOUNT = {  # a value in a unit that only the driver knows
         {"type": "string", "pattern": rf"^{NUMBER_PATTERN} *[^\s0-9].*$"},
     ]
 }
-OPTION_DESCRIPTIONS = {
-    "from": "The value at which it reads 0, in the unit of the driver.",
-    "to": "The value at which it reads 1, in the unit of the driver; it may be the smaller one.",
-    "median": "Of so many values, an odd number, the median is taken.",
-    "rate": "How often it is measured.",
-    "max_age": "What was measured longer ago is a fault.",
-    "on_fault": "On a fault: every actuator neutral, the reading before held, or blank read.",
-    "hold": "For how long the reading before is held.",
-    "blank": "What it reads where there is nothing to measure; as in training where it is not said.",
-    "dead_zone": "Closer to 0, of a bearing to 0.5, it reads just that; as in training where it is not said.",
-    "trim": "Added to neutral: where a wheel stands still. The commands 0 and 1 stay what they are.",
-    "least": "The share of the way from neutral to 0 or 1 below which it does not start: no command is less.",
-    "slew": "A command changes by no more than this share of the travel in a second.",
-    "reversed": "Whether 0 and 1 change places.",
-    "limits": "No command is below the first or above the second.",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +44,6 @@ class DriverOption:
 
     @property
     def required(self) -> bool:
-        """True if it must be given."""
         return self.default is MISSING
 
 
@@ -165,7 +150,7 @@ def _wire_schema(noun: str, name: str, cls: type[Any]) -> dict[str, Any]:
     """The JSON Schema of a sensor or actuator with this driver."""
     its, own = driver_options(cls), own_options(noun)
     text = " ".join(str(cls.__doc__).split())
-    said = {option.key: _option_schema(option, OPTION_DESCRIPTIONS[option.key]) for option in own}
+    said = {option.key: _option_schema(option, texts()["options"][option.key]) for option in own}
     said |= {option.key: _option_schema(option, getattr(option.type, "name", "")) for option in its}
     return {
         "description": text,

@@ -6,9 +6,12 @@ is told in the user's words.
 """
 
 import re
+import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
+from functools import cache
+from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -18,35 +21,6 @@ from mindlang.compiler.source import Source, Span
 MAX_NESTING = 8
 MAX_VALUES = 20_000
 Answer = tuple[str, Span, str, str]  # code, place, message, hint
-
-# What the parser says, what it means, what to do.
-PROBLEMS = (
-    ("mapping values are not allowed", "A second colon stands here, or this line is too far in.",
-     "Begin each key on a line of its own, as far in as its neighbours, with a space after its colon; "
-     'put quotes around a value that has a colon: "a: b".'),
-    ("sequence entries are not allowed", "A list cannot begin here.", "Write [1, 2], or each - on a line of its own."),
-    ("could not find expected ':'", "A colon is missing.", "Write a word, a colon, a space and the value."),
-    ("expected ',' or ']'", "This list has no end, or a comma is missing.", "Write [1, 2, 3]."),
-    ("expected ',' or '}'", "This table has no end, or a comma is missing.", "Write {driver: mock, value: 0.5}."),
-    ("unexpected end of stream", "A quote is opened and never closed.", "Write a quote after the text, too."),
-    ("unexpected document separator", "A quote is opened and never closed.", "Write a quote after the text, too."),
-    ("escape", "This is not what can stand after \\ in double quotes.",
-     "Write \\\\ for a backslash, or single quotes around the text."),
-    ("cannot start any token", "A value cannot begin with this character.", "Put quotes around the value."),
-    ("expected <block end>, but found '<scalar>'", "Something stands after the end of a value.",
-     "Put quotes around the whole value, or begin a new line."),
-    ("expected <block end>, but found '<block", "This line is not as far in as its neighbours.",
-     "Begin all keys of one table in the same column."),
-    ("expected <block end>, but found '-'", "This line is not as far in as its neighbours.",
-     "Begin all entries of one list in the same column."),
-    ("expected <block end>, but found '?'", "This key is not as far in as its neighbours.",
-     "Begin all keys of one table in the same column."),
-    ("expected <block end>", "A bracket is closed that was never opened.", "Remove it, or open it before."),
-    ("expected the node content", "A value is missing here.", "Write it, or remove the comma or bracket."),
-    ("expected '<document start>'", "This does not belong to what stands before it.",
-     "Begin all keys of one table in the same column."),
-    ("incompatible YAML document", "This is another version of YAML.", "Remove the lines that begin with %."),
-)  # fmt: skip
 FIRST_TABS = re.compile(r"^(?:(?!(?:^|\s)#)[^\t\n])*(?!\s#)(\t+)", re.MULTILINE)  # of a line, before its comment
 MAX_SHOWN_CHARACTERS = 40
 WORD = re.compile(r"[\w.]+|[^\n]")
@@ -227,6 +201,12 @@ class _Reader:
         return Span(self.source, event.start_mark.index, event.end_mark.index)
 
 
+@cache
+def texts() -> dict[str, Any]:
+    """What is said of a robot.yaml, read from `mistakes.toml` once."""
+    return tomllib.loads((Path(__file__).parent / "mistakes.toml").read_text(encoding="utf-8"))
+
+
 def first_line(span: Span) -> Span:
     """The part of a span on its first line."""
     return Span(span.source, span.start, span.start + len(span.text.split("\n")[0].rstrip()))
@@ -245,7 +225,7 @@ def misread(error: Exception, source: Source, at: int) -> Answer:
     mark = getattr(error, "problem_mark", None)
     start = min(mark.index if mark else at, len(source.text))
     problem = str(getattr(error, "problem", None) or "escape sequence")
-    known = ((message, hint) for part, message, hint in PROBLEMS if part in problem)
+    known = ((row["message"], row["hint"]) for row in texts()["problems"] if row["says"] in problem)
     message, hint = next(known, (f"This is not YAML: {shortened(problem)}.", "Compare it with docs/robot-yaml.md."))
     if "no end" in message or "never closed" in message:  # it is the beginning that has to be looked at
         opened = getattr(error, "context_mark", None)
@@ -292,66 +272,22 @@ def _whole(text: str) -> str:
     return f"{sign}{whole or '0'}{'.' * bool(part)}{part}"
 
 
-class Surprise(NamedTuple):
-    """A text that YAML takes for something else; message and hint have `text` as written, and what it is `meant` as."""
-
-    pattern: re.Pattern[str]
-    code: str
-    message: str
-    hint: str
-    meant: Callable[[str], str] = str
-
-
-QUOTES = 'Where a word is meant, write it in quotes: "{text}".'
-VERSIONS = "To YAML {text} is a number or a word: its versions differ."
-BASE = "To YAML {text} is a number of base %s or 10: its versions differ."
-WHOLE = (
-    Surprise(
-        re.compile(r"(?i:yes|no|on|off)|True|TRUE|False|FALSE"),
-        "yaml-boolean", "To YAML {text} is {meant}, and not a word.", "Write {meant}. " + QUOTES,
-        lambda text: "true" if text.lower() in ("yes", "on", "true") else "false",
-    ),
-    Surprise(
-        re.compile(r"~|null|Null|NULL"), "yaml-null", "To YAML {text} is nothing.", "Leave the line out. " + QUOTES
-    ),
-    Surprise(
-        re.compile(r"[-+]?[0-9]{1,9}(:[0-5]?[0-9]){1,9}(\.[0-9]{0,9})?"),
-        "yaml-clock", "To YAML {text} is the number {meant}, as minutes and seconds are.",
-        "Write a time in seconds: {meant} s. " + QUOTES, _seconds,
-    ),
-    Surprise(
-        re.compile(r"[0-9]{4}-[0-9]{1,2}-[0-9]{1,2}([Tt \t].*)?"),
-        "yaml-date", "To YAML {text} is a date.", 'Write it in quotes: "{text}".',
-    ),
-)  # fmt: skip
-NUMBERS = (
-    Surprise(
-        re.compile(r"[-+]?[0-9][0-9_]*(\.[0-9_]*)?[eE][-+]?[0-9]{1,9}|[-+]?\.[0-9_]+[eE][-+]?[0-9]{1,9}"),
-        "yaml-exponent", VERSIONS, "Write all digits{meant}.", _all_digits,
-    ),
-    Surprise(re.compile(r"[-+]?0b[0-9_]+"), "yaml-base", BASE % 2, "Write {meant}.", _decimal),
-    Surprise(re.compile(r"[-+]?0o?[0-9_]+"), "yaml-base", BASE % 8, "Write {meant}.", _decimal),
-    Surprise(
-        re.compile(r"[-+]?(0x[0-9a-fA-F_]*_[0-9a-fA-F_]*|[0-9][0-9_]*_[0-9_]*(\.[0-9_]*)?)"),
-        "yaml-underscore", VERSIONS, "Write {meant}.", lambda text: text.replace("_", ""),
-    ),
-    Surprise(
-        re.compile(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)"), "yaml-infinite",
-        "To YAML {text} is no number that can be measured or sent.", "Write a number with digits.",
-    ),
-    Surprise(
-        re.compile(r"[-+]?\.[0-9]+|[-+]?[0-9]+\.|\+[0-9]+(\.[0-9]+)?"),
-        "yaml-number", "{text} is not how a number is written here.", "Write {meant}.", _whole,
-    ),
-)  # fmt: skip
+MEANT: dict[str, Callable[[str], str]] = {
+    "boolean": lambda text: "true" if text.lower() in ("yes", "on", "true") else "false",
+    "seconds": _seconds,
+    "digits": _all_digits,
+    "decimal": _decimal,
+    "joined": lambda text: text.replace("_", ""),
+    "whole": _whole,
+}
 
 
 def surprise(text: str) -> tuple[str, str, str] | None:
     """Code, message and hint of a text without quotes that YAML takes for something else: `no` is false, 1:30 is 90."""
     words = text.split() if text[:1] in "+-.0123456789" else []
-    for said, table in ((text, WHOLE), *((word, NUMBERS) for word in words)):
-        for row in table:
-            if row.pattern.fullmatch(said):
-                parts = {"text": said, "meant": row.meant(said)}
-                return row.code, row.message.format(**parts), row.hint.format(**parts)
+    for said, table in ((text, "texts"), *((word, "numbers") for word in words)):
+        for row in texts()[table]:
+            if re.fullmatch(row["pattern"], said):
+                parts = {"text": said, "meant": MEANT[row["meant"]](said) if "meant" in row else said}
+                return row["code"], row["message"].format(**parts), row["hint"].format(**parts)
     return None

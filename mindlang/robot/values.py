@@ -75,7 +75,6 @@ def _numbers(node: Node, quantity: Quantity, count: int | None, findings: Findin
 
 
 def _words(node: Node, reference: Reference, count: int | None, findings: Findings) -> tuple[str, ...] | None:
-    """A list of words or texts."""
     if not isinstance(node, Items) or not node.items or count not in (None, len(node.items)):
         wanted = f"{count} of them" if count else "at least one"
         hint = f"Write {wanted} between brackets: [a, b]."
@@ -105,7 +104,6 @@ def word(node: Node, reference: Reference, findings: Findings) -> str | None:
 
 
 def text(node: Node, findings: Findings) -> str | None:
-    """A text of one line."""
     if not isinstance(node, Scalar):
         _refuse(node, "not-a-word", "Here stands a text.", "Write it without brackets.", findings)
     elif not node.text.strip() or len(node.text) > MAX_TEXT_CHARACTERS or not node.text.isprintable():
@@ -163,5 +161,4 @@ def check_keys(
 
 
 def missing_key(span: Span, what: str, key: str, example: str, findings: Findings) -> None:
-    """Report a key that is missing."""
     findings.error("missing-key", first_line(span), f"{what} needs {key}.", f"Add a line: {key}: {example}.")

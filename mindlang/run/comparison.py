@@ -1,13 +1,15 @@
-"""Two minds on the same layouts: how much they differ, and a sentence that says no more than its interval does."""
+"""Two minds, or a mind without each of its skills, on the same layouts: how much they differ, in a sentence, too."""
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
-from math import ceil, floor, log10
+from dataclasses import asdict, dataclass, replace
+from math import ceil, floor, inf, log10
 from typing import Any
 
 import numpy as np
-from mindrun.graph.graph import Task
+from mindrun.graph.graph import Gate, Graph, Task
+from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores
+from mindrun.graph.skill_sets import reachable
 from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
 
@@ -18,6 +20,8 @@ from mindlang.run.paired_difference import CONFIDENCE_LEVEL, PairedDifference, d
 SCORE, SUCCESS = "score", "success"  # the figures that are no events
 PERCENT = f"{CONFIDENCE_LEVEL:.0%}".replace("%", " %")
 MIN_DIGITS = 2  # behind the point
+NEVER = (("number", 0.0), ("number", 0.0), ("<", 0))  # a condition that does not hold
+WHOLE = ""  # the name of what is left out of the whole mind
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,3 +148,35 @@ def amount(name: str, value: float, found: PairedDifference) -> str:
 def _words(name: str) -> tuple[str, str]:
     """The verb for a figure, and the words behind `more` or `less`."""
     return {SCORE: ("scores", ""), SUCCESS: ("succeeds", " often")}.get(name, ("counts", f" ({name})"))
+
+
+def silenced(policy: Policy, master: str) -> dict[str, Policy]:
+    """The mind with each skill under a master silent in turn."""
+    graph = policy.graph
+    return {each.name: replace(policy, graph=without(graph, each.name)) for each in reachable(graph, master)}
+
+
+def given_back(policy: Policy, earlier: Policy, master: str) -> dict[str, Policy]:
+    """The mind with the weights that each skill under a master has in another mind, in turn.
+
+    Left out is a skill that has the same weights there, none, or weights of something else.
+    """
+    names = [each.name for each in reachable(policy.graph, master) if policy.agrees(earlier, each.name)]
+    minds = {name: replace(policy, weights={**policy.weights, name: earlier.weights[name]}) for name in names}
+    return {name: mind for name, mind in minds.items() if (mind.weights[name] != policy.weights[name]).any()}
+
+
+def without(graph: Graph, name: str) -> Graph:
+    """The hierarchy in which a skill is silent: it commands nothing, influences nobody, and no memory hears it."""
+    place, skills = graph.skill_numbers[name], [*graph.skills]
+    silent = (replace(edge, gate=Gate(NEVER)) for edge in skills[place].edges)
+    skills[place] = replace(skills[place], edges=tuple(silent))
+    return replace(graph, skills=tuple(skills))
+
+
+def credit_of(task: Task, scores: Mapping[str, Scores], figure: str) -> dict[str, PairedDifference]:
+    """The credit of each skill in a figure, the greatest first, from the scores without it and of the whole mind."""
+    figures = {name: Benched(name, task, each).figures()[figure] for name, each in scores.items()}
+    whole = figures.pop(WHOLE)
+    found = {name: difference(each, whole) for name, each in figures.items()}
+    return dict(sorted(found.items(), key=lambda item: inf if item[1].mean is None else -item[1].mean))

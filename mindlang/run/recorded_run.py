@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 from mindrun.engine.changes import Change
-from mindrun.engine.engine import procedure_sources
 from mindrun.graph.draws import drawn_numbers
 from mindrun.graph.graph import Graph, Task, Thing
 from mindrun.graph.recording_header import GOES_ON
@@ -17,7 +16,6 @@ from mindrun.sim.task_rows import things_of
 from mindrun.sim.trace import Trace, joined, trace
 from numpy.typing import NDArray
 
-from mindlang.run.edge_flow import edge_flows
 from mindlang.run.outcome import run_data, run_names
 from mindlang.run.setup import RunSetup
 
@@ -131,10 +129,8 @@ class RecordedRun:
 
         Behind all of these where none does. A skill that has influence and sends nothing moves nothing.
         """
-        setup = self.setup
         moving = {("actuator", i) for i, each in enumerate(self.graph.actuators) if each.kind.moves_body}
-        sources = procedure_sources(self.graph, setup.folder, setup.master)
-        flows = edge_flows(setup.ready.policy, sources, setup.master, self)
+        flows = self.setup.flows(self)
         sent = flows.transmitted(np.arange(self.ticks)[-(last or self.ticks) :])
         nobody = np.full(len(sent), np.finfo(np.float32).smallest_subnormal)
         influence = [nobody]

@@ -80,18 +80,22 @@ def bundle_without_robot(ready: ReadyMind, folder: Path) -> Bundle:
     return Bundle(ready.policy, procedure_sources(ready.policy.graph, folder))
 
 
+def about_of(setup: RunSetup, mind: Bundle, world: RecordedWorld, by_hand: tuple[str, ...] = ()) -> About:
+    """The header of a recording of a run in a world, with what a person drove there; `mind` is its bundle."""
+    read = read_by(mind.graph, setup.master)
+    sensors = [name for name in physical(mind.graph) if name in read]
+    about = About.of(mind.graph, sha256(pack(mind)).hexdigest(), setup.master, sensors)
+    return replace(about, world=world, by_hand=by_hand)
+
+
 def run_bytes(run: RecordedRun, setup: RunSetup, seed: int) -> bytes:
     """A recording of a run; the events are those of the setup's task, though the run may have noticed more.
 
     It names the bundle that `mindc build` writes of the setup's mind under its master. MindError where the world is too
     large to be recorded.
     """
-    graph = setup.ready.policy.graph
-    read = read_by(graph, setup.master)
-    sensors = tuple(name for name in physical(graph) if name in read)
-    sha = sha256(pack(bundle_without_robot(setup.ready, setup.folder))).hexdigest()
-    about = About.of(graph, sha, setup.master, sensors)
-    about = replace(about, world=world_of(setup.task, seed, run.boxes, run.body[0], run.things[0], run.turned[0]))
+    graph, world = run.graph, world_of(setup.task, seed, run.boxes, run.body[0], run.things[0], run.turned[0])
+    about = about_of(setup, bundle_without_robot(setup.ready, setup.folder), world)
     rows = recorded_rows(about, 1, run, run.events)
     varies = any((each.noun, each.argument) == ("actuator", "delay") for each in setup.task.varies)
     if varies or any(each.kind.delay for each in graph.actuators):  # what reaches one was sent some ticks ago

@@ -7,6 +7,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
+from mindrun.engine.engine import procedure_sources
 from mindrun.graph.graph import Task
 from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores
@@ -21,6 +22,7 @@ from mindlang.executors.jobs import Block, JobScorer, empty_scores, write_scores
 from mindlang.limits import RUN_BOUNDS, SEED_BOUNDS, bounded_int
 from mindlang.lock.status import ReadyMind, make_ready
 from mindlang.run.chosen_task import SetupError, master_of, task_of
+from mindlang.run.edge_flow import EdgeFlows, ReadingsAndInfluence, edge_flows
 
 if TYPE_CHECKING:
     from mindrun.sim.rollout import Rollout
@@ -61,6 +63,12 @@ class RunSetup:
         """The task as a policy of the same skills has it, with that policy in the place of this one."""
         task = next(each for each in policy.graph.tasks if each.name == self.task.name)
         return replace(self, task=task, ready=replace(self.ready, policy=policy))
+
+    def flows(self, run: ReadingsAndInfluence) -> EdgeFlows:
+        """The flows of a run under the master; WeightsError or ProcedureError where a skill cannot think."""
+        policy = self.ready.policy
+        sources = procedure_sources(policy.graph, self.folder, self.master)
+        return edge_flows(policy, sources, self.master, run)
 
     def rollout(self, interrupt: bool = True, workers: int = 1) -> "Rollout":
         """The task under the master, in the simulator. Runs the text of the procedures' modules."""

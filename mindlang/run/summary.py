@@ -5,6 +5,7 @@ from typing import Any
 
 from mindrun.graph.draws import drawn_in_words
 from mindrun.sim.outside.making import GAVE_NO_NUMBER
+from rich.cells import cell_len, set_cell_size
 from rich.console import Group, RenderableType
 from rich.text import Text
 
@@ -70,7 +71,7 @@ def _goals(found: dict[str, Any]) -> Iterator[RenderableType]:
     if goals := found.get("goals"):
         rows = [
             (
-                _cut(each["goal"], PROMISE_COLUMNS),
+                shortened(each["goal"], PROMISE_COLUMNS),
                 "–" if each["mean"] is None else f"{each['mean']:.1%}",
                 "" if each["met"] is None else f"{round(each['met'] * found['runs']):,}",
             )
@@ -104,7 +105,7 @@ def _promise_row(found: dict[str, Any]) -> list[str | Text]:
     held = "< 100%" if share == "100.0%" and found["held"] < judged else share
     runs = [f"{found['broken_runs']}"] if found["runs"] > 1 else []
     return [
-        _cut(f"{found['skill']} {found['promise']}", PROMISE_COLUMNS),
+        shortened(f"{found['skill']} {found['promise']}", PROMISE_COLUMNS),
         held,
         *("" if many is None else f"{many:,}" for many in by),
         *runs,
@@ -115,7 +116,7 @@ def _broken_by_both(minds: Sequence[dict[str, Any]]) -> Iterator[RenderableType]
     """A row for each promise: in how many runs of two minds it was broken; – where one does not promise it."""
     both = [{f"{each['skill']} {each['promise']}": each for each in mind.get("promises", ())} for mind in minds]
     if names := [*(both[0] | both[1])]:
-        rows: list[Row] = [[_cut(name, PROMISE_COLUMNS), *(_broken(each.get(name)) for each in both)] for name in names]
+        rows = [(shortened(name, PROMISE_COLUMNS), *(_broken(each.get(name)) for each in both)) for name in names]
         yield aligned(rows, (0,), ("promise broken in", "A", "B"))
         yield ""
 
@@ -135,23 +136,17 @@ def _broken_elsewhere(
             share = {where: each["broken_runs"] / each["runs"] for where, each in others.items()}
             worst = max(share, key=share.__getitem__, default="")
             is_worse = share.get(worst, 0) > promise["broken_runs"] / promise["runs"]
-            where = _cut(worst if is_worse else "", WHERE_COLUMNS).plain
+            where = shortened(worst if is_worse else "", WHERE_COLUMNS)
             of = f"{name}{promise['skill']} {promise['promise']}"
             rows.append((of, _broken(promise), _broken(others.get(worst)), where))
     if len(rows) > 1:
         room = LINE_COLUMNS - sum(2 + max(map(len, column)) for column in [*zip(*rows, strict=True)][1:])
         yield ""
-        yield aligned(([_cut(of, room), *row] for of, *row in rows[1:]), (0, 3), ("promise broken in", *heads))
+        yield aligned(([shortened(of, room), *row] for of, *row in rows[1:]), (0, 3), ("promise broken in", *heads))
 
 
 def _broken(found: dict[str, Any] | None) -> str:
     return f"{found['broken_runs']} of {found['runs']}" if found else "–"
-
-
-def _cut(text: str, columns: int) -> Text:
-    found = Text(text)
-    found.truncate(columns, overflow="ellipsis")
-    return found
 
 
 def _title(found: dict[str, Any]) -> Text:
@@ -291,7 +286,7 @@ def _promised_in_worlds(found: dict[str, Any]) -> Iterator[Elsewhere]:
 
 def _world_row(row: dict[str, Any], minds: Sequence[str]) -> Iterator[str | Text]:
     """The name of a world, and the cells of each mind; – where it has no such world, or no share."""
-    yield _cut(row["world"], WORLD_COLUMNS // len(minds))
+    yield shortened(row["world"], WORLD_COLUMNS // len(minds))
     there = {each["name"]: each for each in row["minds"]}
     for found in map(there.get, minds):
         if found is None:
@@ -324,8 +319,8 @@ def credit_summary(found: dict[str, Any], credited: Mapping[str, PairedDifferenc
 
 
 def shortened(text: str, columns: int) -> str:
-    """A text cut to so many columns."""
-    return text if len(text) <= columns else f"{text[: columns - 1]}…"
+    """A text cut to so many columns of a terminal."""
+    return text if cell_len(text) <= columns else f"{set_cell_size(text, columns - 1)}…"
 
 
 def aligned(rows: Iterable[Row], left: Collection[int], head: Sequence[str] = ()) -> Text:

@@ -7,6 +7,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from mindrun.graph.graph import Graph, Lesson, Skill
+from mindrun.graph.policy import Policy
 from mindrun.graph.weights import Weights, learners
 from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError
@@ -46,6 +47,11 @@ class Subject:
         """The file as it is called here: from the working directory, where it lies there or below."""
         here = Path.cwd().resolve()
         return self.source.relative_to(here) if self.source.is_relative_to(here) else self.source
+
+    @property
+    def policy(self) -> Policy:
+        """The hierarchy with the weights of all skills that were taught, and fit."""
+        return Policy(self.graph, trained_weights(self.graph, self.lock, [*self.graph.skill_numbers])[0])
 
     def keep_path(self, lesson: Lesson) -> Path:
         """The lock to which goes what a lesson teaches: that of the file in which the lesson stands.
@@ -145,19 +151,24 @@ def refuse_frozen(subject: Subject, chosen: Iterable[Lesson]) -> None:
 
 def refuse_changed(subject: Subject, run: RunFolder) -> None:
     """RunError where the run was begun with a mind that differs in something the lesson depends on."""
-    lesson, graph = run.manifest.lesson, subject.graph
-    skills, tasks = {skill.name for skill in graph.skills}, {task.name for task in graph.tasks}
-    if (
-        not {lesson.skill, lesson.master} <= skills
-        or lesson.task not in tasks
-        or learners(graph, lesson) != run.manifest.learners  # one may have been frozen
-        or fingerprint(graph, lesson, subject.folder) != run.manifest.mind
-    ):
+    if not is_mind_of(subject, run):
+        skill = run.manifest.lesson.skill
         raise RunError(
-            f"{subject.shown} has changed since this run of {lesson.skill} began, so it cannot go on",
+            f"{subject.shown} has changed since this run of {skill} began, so it cannot go on",
             f"undo the change ({run.folder / 'source'} has it as it was), or begin anew: "
-            + command_line("mindc", "train", subject.shown, lesson.skill),
+            + command_line("mindc", "train", subject.shown, skill),
         )
+
+
+def is_mind_of(subject: Subject, run: RunFolder) -> bool:
+    """True if a mind has all that the lesson of a run depends on, as it was when the run was begun."""
+    lesson, graph = run.manifest.lesson, subject.graph
+    return (
+        {lesson.skill, lesson.master} <= graph.skill_numbers.keys()
+        and any(task.name == lesson.task for task in graph.tasks)
+        and learners(graph, lesson) == run.manifest.learners  # one may have been frozen
+        and fingerprint(graph, lesson, subject.folder) == run.manifest.mind
+    )
 
 
 def origin_weights(graph: Graph, lock: Lock, lesson: Lesson, shown: Path) -> dict[str, Weights]:

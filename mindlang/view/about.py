@@ -38,7 +38,7 @@ def about_data(
 ) -> Data:
     """The constant data of rows with these columns; `skills` are those below the master, parents first."""
     rewards = [reward.text for reward in task.rewards] if task else []
-    has_robot = not (task and task.scene.environment)
+    has_robot, held = not (task and task.scene.environment), hand_on(graph, of.master, of.by_hand).held
     return {
         "master": shown(of.master),
         "tick": of.tick,
@@ -47,7 +47,7 @@ def about_data(
         "rewards": [shown(text) for text in rewards],
         "ends": [shown(text) for text in outcome.ends(task)] if task else [],
         "world": _world(graph, task, of, columns) if task and of.world and has_robot else None,
-        "by_hand": hand_data(of, graph),
+        "by_hand": [{"name": name, "neutral": each.neutral, "role": each.role} for name, each in held.items()],
         "curves": _curves(graph, skills, columns, rewards, has_robot),
         **_hierarchy(graph, of, skills, columns, texts),
     }
@@ -134,12 +134,6 @@ def order_data(graph: Graph) -> list[Data]:
         | {"low": kind.order.first, "high": kind.order.last}
         for node, kind in kinds.items()
     ]
-
-
-def hand_data(of: About, graph: Graph) -> list[Data]:
-    """The actuators and skills that a hand holds: the name of each, its neutral number, and what it does to wheels."""
-    held = hand_on(graph, of.master, of.by_hand).held
-    return [{"name": name, "neutral": each.neutral, "role": each.role} for name, each in held.items()]
 
 
 def _curves(

@@ -72,16 +72,12 @@ def exported_images(viewed: Viewed, drawn: Callable[[int], None]) -> ExportedIma
     return ExportedImages(every, images)
 
 
-class ExportError(MindError):
-    """A run that does not fit into a file."""
-
-
 def refuse_too_large_page(viewed: Viewed) -> None:
-    """ExportError where so many rows do not fit into a page."""
+    """MindError where so many rows do not fit into a page."""
     columns = viewed.columns
     size = (viewed.known + 1) * (8 * columns.width(DOUBLE_BLOCK) + 4 * columns.width(SINGLE_BLOCK))
     if size > MAX_EXPORTED_BYTES:
-        raise ExportError(
+        raise MindError(
             f"{viewed.known:,} ticks of this mind are {size >> 20:,} MiB, more than a page can hold",
             "see it with a server: leave --export out",
         )

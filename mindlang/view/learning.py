@@ -7,11 +7,10 @@ from typing import Any
 
 from mindrun.errors import MindError
 from mindrun.graph.policy import Policy
-from mindrun.graph.weights import learners, parts
+from mindrun.graph.weights import parts
 from mindrun.sim.rollout import Rollout
 from mindrun.train import NotFoundError, RunError
 from mindrun.train.champion_log import CHAMPION_ROWS, Champion, read_champions, rows_that_fit
-from mindrun.train.manifest import fingerprint
 from mindrun.train.population import Genomes
 from mindrun.train.progress import LINES, Position, read_progress
 from mindrun.train.run_folder import MANIFEST, SOURCES, RunFolder, open_run
@@ -21,7 +20,7 @@ from mindlang.compiler.drawing import text_after_name
 from mindlang.files import Stamp, stamp
 from mindlang.lock.status import ReadyMind
 from mindlang.run.setup import RunSetup
-from mindlang.training.subject import Subject, open_subject
+from mindlang.training.subject import Subject, is_mind_of, open_subject
 from mindlang.view.about import Texts
 from mindlang.view.messages import RefusedError, shown
 from mindlang.view.viewed import Viewed
@@ -200,7 +199,7 @@ def trained_mind(run: RunFolder) -> tuple[Subject, Texts]:
             if compiled.graph is None or compiled.mind is None:
                 continue
             subject = open_subject(path, compiled)
-            if _is_mind_of(run, subject):
+            if is_mind_of(subject, run):
                 edges = ((skill.name, edge) for skill in compiled.mind.skills for edge in skill.edges)
                 return subject, {(name, edge.target): text_after_name(edge.fact) for name, edge in edges}
         except (MindError, OSError):
@@ -208,15 +207,4 @@ def trained_mind(run: RunFolder) -> tuple[Subject, Texts]:
     raise RunError(
         f"{source} has changed since this run of {run.manifest.lesson.skill} began, and its champions do not fit",
         f"undo the change: {run.folder / SOURCES} has it as it was",
-    )
-
-
-def _is_mind_of(run: RunFolder, subject: Subject) -> bool:
-    lesson = run.manifest.lesson
-    names = {skill.name for skill in subject.graph.skills}, {task.name for task in subject.graph.tasks}
-    return (
-        {lesson.skill, lesson.master} <= names[0]
-        and lesson.task in names[1]
-        and learners(subject.graph, lesson) == run.manifest.learners
-        and fingerprint(subject.graph, lesson, subject.folder) == run.manifest.mind
     )

@@ -33,22 +33,6 @@ FITTED_NUMBERS = 400_000  # ticks times weights, at most, of a function that rem
 WINDOW_TICKS = 2000  # of a function that remembers: it begins each with nothing remembered, as a run
 
 
-class ShowingError(MindError):
-    """Drives from which a skill cannot learn."""
-
-
-@dataclass(frozen=True, slots=True)
-class Shown:
-    """What a skill reads in a drive [ticks, inputs], and what it would send there [ticks, outputs].
-
-    The ticks are those in which all that it reads is a number: in others a skill computes nothing. What it would send
-    is NaN where nobody knows it.
-    """
-
-    inputs: Rows
-    wanted: Rows
-
-
 @dataclass(frozen=True, slots=True)
 class OutputError:
     """How far an output is off what was shown on drives that were held out, in 0..1.
@@ -98,13 +82,13 @@ class Imitation:
 def imitation(
     graph: Graph, network: SkillNetwork, drives: Sequence[Drive], seed: int, told: Callable[[int], object]
 ) -> Imitation:
-    """A skill's weights fitted to drives; ShowingError where these do not show what it reads or sends."""
+    """A skill's weights fitted to drives; MindError where these do not show what it reads or sends."""
     _refuse_unshown(graph, network.skill, drives)
     fitting, held_out = _parted(drives, seed)
     shown, hidden = ([_shown(graph, network.skill, drive) for drive in each] for each in (fitting, held_out))
     ticks, held_out_ticks = (_comparable(each) for each in (shown, hidden))
     if ticks < FEWEST_TICKS or held_out_ticks < FEWEST_TICKS // HELD_OUT:
-        raise ShowingError(
+        raise MindError(
             f"{in_words(drives)} shows {network.skill.name} too little: {tick_count(ticks + held_out_ticks)} that can "
             f"be compared, {tick_count(held_out_ticks)} of these held out",
             f"drive for longer: {FEWEST_TICKS} ticks beside those held out are the least",
@@ -126,7 +110,7 @@ def lesson_of(graph: Graph, skill: str, drives: Sequence[Drive]) -> Lesson:
     shown = [drive.task for drive in drives if drive.task in known]
     if not shown:
         why = f"no lesson teaches {skill}, and no recording is of a task of the mind, on which it could be tried"
-        raise ShowingError(why, f"add a curriculum that says: teaches {skill} on TASK for N generations")
+        raise MindError(why, f"add a curriculum that says: teaches {skill} on TASK for N generations")
     return Lesson("", skill, shown[0], skill, 1, False, False, Genetic())
 
 
@@ -140,7 +124,11 @@ def _parted(drives: Sequence[Drive], seed: int) -> tuple[list[Drive], list[Drive
     return [d for i, d in enumerate(drives) if i not in out], [d for i, d in enumerate(drives) if i in out]
 
 
-def _shown(graph: Graph, skill: Skill, drive: Drive) -> Shown:
+def _shown(graph: Graph, skill: Skill, drive: Drive) -> Examples:
+    """What a skill reads in a drive, and what it would send there, as one sequence; NaN where nobody knows it.
+
+    The ticks are those in which all that it reads is a number: in others a skill computes nothing.
+    """
     wanted = np.full((len(drive), skill.outputs), np.nan, np.float32)
     own = drive.influence[:, graph.skill_numbers[skill.name]]
     for edge in skill.edges:
@@ -154,61 +142,59 @@ def _shown(graph: Graph, skill: Skill, drive: Drive) -> Shown:
             wanted[:, edge.output] = np.clip(sent, 0, 1)
     inputs = drive.readings[:, list(skill.inputs)]
     is_read = np.isfinite(inputs).all(axis=1)
-    return Shown(inputs[is_read], wanted[is_read])
+    return Examples(inputs[is_read, None].astype(float), wanted[is_read, None].astype(float))
 
 
 def _refuse_unshown(graph: Graph, skill: Skill, drives: Sequence[Drive]) -> None:
-    """ShowingError where no tick of the drives has a number for something that a skill reads, or learns to send."""
+    """MindError where no tick of the drives has a number for something that a skill reads, or learns to send."""
     names = in_words(drives) if drives else ""
     if not drives:
-        raise ShowingError("there is no tick in these recordings", "record a drive: mindc view FILE --drive")
+        raise MindError("there is no tick in these recordings", "record a drive: mindc view FILE --drive")
     for edge in skill.edges:
         if edge.output is not None and edge.to == "memory":
             memory = graph.memories[edge.target].name
             why = f"{skill.name} sends to the memory {memory}, and no drive shows what it should remember"
-            raise ShowingError(why, "teach it by a lesson")
+            raise MindError(why, "teach it by a lesson")
     readings = reading_names(graph)
     for place in skill.inputs:
         if all(not np.isfinite(drive.readings[:, place]).any() for drive in drives):
             why = f"{names} has no reading of {readings[place]}, which {skill.name} reads"
-            raise ShowingError(
-                why, f"record a drive in a task that has it, under a master that reads {readings[place]}"
-            )
+            raise MindError(why, f"record a drive in a task that has it, under a master that reads {readings[place]}")
     for edge in skill.edges:
         place, to = edge.target, graph.named(edge.to, edge.target)
         of = [drive.influence if edge.to == "skill" else drive.commands for drive in drives]
         if edge.output is not None and all(not np.isfinite(each[:, place]).any() for each in of):
             what = f"influence of {to}" if edge.to == "skill" else f"command to {to}"
             who = f"a master above {to}" if edge.to == "skill" else "a robot that is not stopped"
-            raise ShowingError(f"{names} has no {what}, which {skill.name} sends", f"record a drive of {who}")
+            raise MindError(f"{names} has no {what}, which {skill.name} sends", f"record a drive of {who}")
 
 
-def _comparable(shown: Sequence[Shown]) -> int:
-    return sum(int(np.isfinite(each.wanted).any(axis=1).sum()) for each in shown)
+def _comparable(shown: Sequence[Examples]) -> int:
+    return sum(int(np.isfinite(each.wanted).any(axis=2).sum()) for each in shown)
 
 
-def _rows(shown: Sequence[Shown], most: int) -> Examples:
+def _rows(shown: Sequence[Examples], most: int) -> Examples:
     """At most so many rows, evenly from all that can be compared."""
     inputs, wanted = (np.concatenate([getattr(each, name) for each in shown]) for name in ("inputs", "wanted"))
-    known = np.flatnonzero(np.isfinite(wanted).any(axis=1))
+    known = np.flatnonzero(np.isfinite(wanted).any(axis=(1, 2)))
     taken = known[np.linspace(0, len(known) - 1, min(len(known), MOST_TICKS, max(most, FEWEST_TICKS))).astype(int)]
-    return Examples(inputs[taken, None].astype(float), wanted[taken, None].astype(float))
+    return Examples(inputs[taken], wanted[taken])
 
 
-def _windows(shown: Sequence[Shown]) -> Examples:
+def _windows(shown: Sequence[Examples]) -> Examples:
     """Windows of all drives side by side, for a function that remembers: as many as are fitted to, evenly."""
     parts = [
-        Shown(each.inputs[first : first + WINDOW_TICKS], each.wanted[first : first + WINDOW_TICKS])
+        each.part(slice(first, first + WINDOW_TICKS))
         for each in shown
         for first in range(0, len(each.inputs), WINDOW_TICKS)
     ]
     many = min(len(parts), MOST_TICKS // WINDOW_TICKS)
     parts = [parts[place] for place in np.linspace(0, len(parts) - 1, many).astype(int)]
     longest = max(len(each.inputs) for each in parts)
-    inputs = np.zeros((longest, len(parts), parts[0].inputs.shape[1]))
-    wanted = np.full((longest, len(parts), parts[0].wanted.shape[1]), np.nan)
+    inputs = np.zeros((longest, len(parts), parts[0].inputs.shape[2]))
+    wanted = np.full((longest, len(parts), parts[0].wanted.shape[2]), np.nan)
     for place, each in enumerate(parts):
-        inputs[: len(each.inputs), place], wanted[: len(each.inputs), place] = each.inputs, each.wanted
+        inputs[: len(each.inputs), place], wanted[: len(each.inputs), place] = each.inputs[:, 0], each.wanted[:, 0]
     return Examples(inputs, wanted)
 
 
@@ -226,18 +212,17 @@ def sent_by(network: SkillNetwork, genome: Weights, inputs: Rows) -> Rows:
 
 
 def _errors(
-    graph: Graph, network: SkillNetwork, genome: Weights, shown: Sequence[Shown], hidden: Sequence[Shown]
+    graph: Graph, network: SkillNetwork, genome: Weights, shown: Sequence[Examples], hidden: Sequence[Examples]
 ) -> Iterator[OutputError]:
     """The error of each output on what was held out, beside that of the mean of what was shown."""
-    wanted = np.concatenate([each.wanted for each in shown]).astype(float)
-    right = np.concatenate([each.wanted for each in hidden]).astype(float)
-    sent = np.concatenate([sent_by(network, genome, each.inputs) for each in hidden])
+    wanted, right = (np.concatenate([each.wanted[:, 0] for each in of]) for of in (shown, hidden))
+    sent = np.concatenate([sent_by(network, genome, each.inputs[:, 0].astype(np.float32)) for each in hidden])
     for edge in network.skill.edges:
         if (place := edge.output) is not None:
             known = np.isfinite(right[:, place])
             to, mean = graph.named(edge.to, edge.target), float(np.nanmean(wanted[:, place]))
             if not known.any():
-                raise ShowingError(f"what was held out shows nothing of {to}", "say more drives, or another --seed")
+                raise MindError(f"what was held out shows nothing of {to}", "say more drives, or another --seed")
             off, spread = right[known, place] - sent[known, place], right[known, place] - mean
             before = float(np.square(spread).sum())
             explained = 1 - float(np.square(off).sum()) / before if before > 0 else None

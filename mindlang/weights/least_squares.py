@@ -128,12 +128,8 @@ def _residuals(function: Function, examples: Examples, genomes: Doubles) -> Doub
     return np.where(is_beyond, 0.0, computed - wanted).reshape(len(genomes), -1)
 
 
-def _joined(one: Doubles, other: Doubles) -> Doubles:
-    return np.concatenate([one, other], axis=-1)
-
-
-def _sigmoid(values: Doubles) -> Doubles:
-    return 0.5 * np.tanh(0.5 * values) + 0.5
-
-
-BATCHED = Terms(lambda values, matrix: values @ matrix.swapaxes(-1, -2), _sigmoid, _joined)  # [genomes, rows, values]
+BATCHED = Terms(  # of numbers [genomes, rows, values]
+    product=lambda values, matrix: values @ matrix.swapaxes(-1, -2),
+    sigmoid=lambda values: 0.5 * np.tanh(0.5 * values) + 0.5,
+    joined=lambda one, other: np.concatenate([one, other], axis=-1),
+)

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 from mindrun.errors import WeightsError, system_errors_as
-from mindrun.files.atomic_write import write
 from mindrun.files.printable import visible
 from mindrun.files.regular_files import read_whole
 from mindrun.graph.graph import Graph, Skill
@@ -63,7 +62,6 @@ class SkillNetwork:
 
     @property
     def state(self) -> int:
-        """The number of values that it remembers."""
         return self.skill.function.state_length(self.inputs, self.outputs)
 
 
@@ -144,12 +142,6 @@ def trained_network(subject: Subject, skill: str) -> tuple[SkillNetwork, Weights
     if refusals:
         raise WeightsError(refusals[0], command_line("mindc", "train", subject.shown, skill))
     return network, weights[skill]
-
-
-def save_genome(path: Path, network: SkillNetwork, genome: Weights) -> None:
-    """WeightsError where that fails."""
-    with system_errors_as(WeightsError, f"{path} cannot be written"):
-        write(path, to_bytes(network, genome))
 
 
 def to_bytes(network: SkillNetwork, genome: Weights) -> bytes:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import torch
-from mindrun.errors import MindError
+from mindrun.errors import MindError, WeightsError, system_errors_as
+from mindrun.files.atomic_write import write
 from mindrun.graph.graph import Skill as GraphSkill
 from mindrun.graph.weights import Weights
 from mindrun.numbers.arithmetic import DENOMINATOR, LIMIT, NUMERATOR
@@ -20,7 +21,7 @@ from torch.autograd import Function
 from mindlang.lock import lock_sources, read_locks
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import trained_weights
-from mindlang.weights.network import SkillNetwork, genome_in, network_of, read_bytes, save_genome
+from mindlang.weights.network import SkillNetwork, genome_in, network_of, read_bytes, to_bytes
 
 if TYPE_CHECKING:
     from mindlang.api import Mind
@@ -104,11 +105,8 @@ class ReturningClamp(Function):
         return torch.where(leads_on, torch.zeros_like(grad), grad)
 
 
-def _joined(one: Tensor, other: Tensor) -> Tensor:
-    return torch.cat([one, other], -1)
-
-
-TERMS = Terms(OrderedProduct.apply, RationalSigmoid.apply, _joined)  # in which a function says what it computes
+# In which a function says what it computes.
+TERMS = Terms(OrderedProduct.apply, RationalSigmoid.apply, lambda one, other: torch.cat([one, other], -1))
 
 
 class Layer(nn.Module):
@@ -188,7 +186,8 @@ class Skill(NetworkModule):
 
     def save(self, path: Path | str) -> None:
         """Write its weights as safetensors, with what they read and send; `mindc weights import` takes them."""
-        save_genome(Path(path), self.network, self.genome())
+        with system_errors_as(WeightsError, f"{path} cannot be written"):
+            write(Path(path), to_bytes(self.network, self.genome()))
 
     def load(self, path: Path | str) -> None:
         """Load the weights of a file; WeightsError where they are not those of this skill."""

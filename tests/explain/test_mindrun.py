@@ -6,7 +6,7 @@ from argparse import ArgumentParser
 import pytest
 from mindrun.cli import driving_parser, tool_parser, tools
 
-from mindlang.cli._articles import mindrun_articles
+from mindlang.cli.explain import mindrun_articles
 from tests.calling import Call
 from tests.project.sources import ROOT
 

@@ -9,8 +9,7 @@ from mindlang.compiler.compile import load
 from mindlang.falsify.failures import Criterion, Rate
 from mindlang.falsify.numbers import Number, drawn_at, numbers_of
 from mindlang.falsify.region import Box, Tried, worst_box
-from mindlang.falsify.report import found_data, hard_text
-from mindlang.falsify.search import Found, Search
+from mindlang.falsify.search import Found, Search, found_data, hard_text
 from mindlang.run.outcome import run_names
 from mindlang.run.setup import layouts, run_all, set_up
 

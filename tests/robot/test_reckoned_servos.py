@@ -20,8 +20,7 @@ from mindrun.robot.guardian.guard import meant, started
 from mindrun.robot.guardian.plan import Channel, plan_of
 from mindrun.robot.loop import Loop, Rate
 from mindrun.robot.recording import read
-from mindrun.robot.sensing import ReadingFilter
-from mindrun.robot.servos import ReckonedServo, reckoned_servos
+from mindrun.robot.sensing import ReadingFilter, ReckonedServo, reckoned_servos
 from mindrun.sim.commanded_lanes import CommandedWorld
 
 from mindlang.robot.to_fill_in import robot_yaml

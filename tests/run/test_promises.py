@@ -10,9 +10,9 @@ import pytest
 from mindrun.engine.promises import BY_SKILL, PromiseWatcher
 from mindrun.sim.trace import Ticks, joined, trace
 
+from mindlang.cli import _bench
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source
-from mindlang.run import promises
 from mindlang.run.promises import promises_in
 from mindlang.run.setup import RunSetup, set_up
 from tests.calling import Call
@@ -134,7 +134,7 @@ def test_of_two_minds_a_bench_says_in_how_many_runs_each_breaks_a_promise(mindc:
 def test_where_a_promise_is_broken_in_most_runs_is_said(
     mindc: Call, dock: Path, monkeypatch: pytest.MonkeyPatch, how: str, key: str, here: str
 ) -> None:
-    monkeypatch.setattr(promises, "FEW_TICKS", FEW_TICKS)
+    monkeypatch.setattr(_bench, "FEW_TICKS", FEW_TICKS)
     found, setup = bench(mindc, dock, "--runs", 4, how), prepared(MIND)
     few = promises_in(setup.rollout(), "Feed", setup.layouts(1, 4), FEW_TICKS)
     assert few[0]["runs"] == 3  # of 1,600 ticks

@@ -6,9 +6,16 @@ import numpy as np
 from rich.console import Group, RenderableType
 
 from mindlang.run.recorded_run import RecordedRun, RunResult
-from mindlang.whatif.comparison import Compared, TickDifference, first_differences
-from mindlang.whatif.open_loop import OpenLoop
-from mindlang.whatif.report import comparison_summary, differences_text, recording_data, recording_summary
+from mindlang.whatif.comparison import (
+    Compared,
+    OpenLoop,
+    TickDifference,
+    comparison_summary,
+    differences_text,
+    first_differences,
+    recording_data,
+    recording_summary,
+)
 from mindlang.whatif.request import Request
 
 WAS: dict[str, Any] = {

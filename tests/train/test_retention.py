@@ -16,10 +16,10 @@ from mindrun.train.scoring import Purpose, layouts
 
 from mindlang.compiler.compile import load
 from mindlang.lock.status import trained_weights
-from mindlang.training.remarks import remarks
 from mindlang.training.retention import KEPT_LAYOUTS, TOLD_LAYOUTS, Retention
 from mindlang.training.standstill import idle_ticks, standstill
 from mindlang.training.subject import Subject, begin_run, open_subject
+from mindlang.training.teaching import remarks
 from tests.calling import Call
 from tests.edits.taught import MIND, recorded, teach, write_mind
 

@@ -10,7 +10,7 @@ from mindrun.train.attempts import Ahead
 from mindrun.train.lesson_state import Record
 from rich.console import Console
 
-from mindlang.cli._training_progress import LessonDisplay, ProgressLine, ProgressText, TimeLeft
+from mindlang.cli._trainer import LessonDisplay, ProgressLine, ProgressText, TimeLeft
 from mindlang.number_format import rate
 
 SHOWN = {

@@ -15,9 +15,9 @@ from mindrun.sim.commanded_lanes import CommandedWorld
 from mindlang.compiler.compile import load
 from mindlang.run.recording import bundle_without_robot, running_bundle
 from mindlang.run.setup import set_up
-from mindlang.view.driven_run import LOOK_SECONDS, DrivenRuns
 from mindlang.view.messages import RefusedError, SayHand, message
 from mindlang.view.viewed_recording import viewed_recording
+from mindlang.view.viewed_run import LOOK_SECONDS, DrivenRuns
 from tests.robot.faults import Clock
 from tests.view.serving import prepared, served
 

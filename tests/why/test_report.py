@@ -7,8 +7,7 @@ import pytest
 from rich.console import Group
 from rich.text import Text
 
-from mindlang.attribution.answer import mean_direction
-from mindlang.attribution.report import answer_text
+from mindlang.attribution.answer import answer_text, mean_direction
 from mindlang.attribution.shares import MAX_COUNTED_PATHS
 
 CHASE = {"share": 0.6676, "part": 5 / 6, "value": 0.8011, "influence": 1.0, "path": ["Roam", "Chase", "left_wheel"]}

@@ -11,7 +11,7 @@ from mindrun.sim.trace import joined, last_touch, trace
 from rich.console import Group
 
 import mindlang
-from mindlang.attribution.ends_report import ends_text
+from mindlang.attribution.ends import ends_text
 from tests.calling import RULES, Call
 
 CARRYING = """tick 1/60 s

@@ -88,7 +88,6 @@ def _add_what_is_said(robot: _ArgumentGroup) -> None:
 
 
 def tools() -> list[str]:
-    """The names of the tools."""
     return sorted(module.name for module in iter_modules(__path__))
 
 

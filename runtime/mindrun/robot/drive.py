@@ -35,8 +35,7 @@ from mindrun.robot.orders import Orders, with_orders
 from mindrun.robot.ownership import hold_devices, is_adopted
 from mindrun.robot.processes import refuse_success, stopping
 from mindrun.robot.recording import About, Recorder, TemporaryRecorder
-from mindrun.robot.sensing import ReadingFilter, Sampler
-from mindrun.robot.servos import reckoned_servos
+from mindrun.robot.sensing import ReadingFilter, Sampler, reckoned_servos
 from mindrun.robot.simulated_world import simulated, status
 from mindrun.terminal.command_line import command_line
 from mindrun.terminal.standard_streams import StatusLine

@@ -50,13 +50,7 @@ class Hand:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of what it holds."""
         return tuple(self.held)
-
-    @property
-    def holds_influence(self) -> bool:
-        """True if it holds a skill."""
-        return any(each.is_skill for each in self.held.values())
 
     def say(self, name: str, value: float) -> None:
         """Let a number be this from now on; MindError where it is none from 0 to 1."""

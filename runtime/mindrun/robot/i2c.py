@@ -192,7 +192,6 @@ class MeasuringChip:
             raise self.wire.error(f"has an impossible status (0x{found:02x})")
 
     def read_counts(self) -> tuple[int, ...]:
-        """Read the newest measurement."""
         return unpack(self.model.layout, self.wire.read(self.model.out, calcsize(self.model.layout)))
 
 

@@ -15,8 +15,7 @@ from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.guard import failing
 from mindrun.robot.hand import NO_HAND, Hand, Said
 from mindrun.robot.recording import Recorder
-from mindrun.robot.sensing import ReadingFilter
-from mindrun.robot.servos import ReckonedServo
+from mindrun.robot.sensing import ReadingFilter, ReckonedServo
 from mindrun.terminal.tick_count import ticks as in_words
 
 LATENESS_BINS = 400  # of lateness, each a hundredth of a tick
@@ -159,7 +158,6 @@ class Loop:
 
     @property
     def neutral(self) -> NDArray[np.float32]:
-        """The neutral command of each actuator."""
         return np.array([actuator.kind.neutral for actuator in self.engine.graph.actuators], np.float32)
 
     def _measured(self) -> NDArray[np.float32]:

@@ -76,7 +76,6 @@ class StopSignals:
 
     @property
     def handlers(self) -> Mapping[signal.Signals, Callable[[int, FrameType | None], None]]:
-        """The handler of each signal."""
         return dict.fromkeys(STOP_SIGNALS, self.note) | {signal.SIGALRM: self.hurry}
 
     def hear(self) -> None:

@@ -169,7 +169,6 @@ def recording_bytes(about: About, rows: NDArray[Any]) -> bytes:
 
 
 def _sealed(rows: NDArray[Any]) -> NDArray[Any]:
-    """The rows, with their checksums."""
     rows["check"] = 0
     rows["check"] = [zlib.crc32(row.tobytes()) for row in rows]
     return rows

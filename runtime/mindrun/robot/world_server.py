@@ -78,7 +78,6 @@ class SimulatedScene:
         self._readings = self.world.readings().astype("<f8")
 
     def answer(self, what: bytes, name: str, value: float) -> bytes:
-        """The answer to a request."""
         try:
             done, held = True, self._held(what, name, value)
         except LookupError as refused:

@@ -54,7 +54,6 @@ class DriverCode:
 
     @property
     def text(self) -> str:
-        """The file."""
         return "\n".join(self.lines)
 
 
@@ -138,7 +137,6 @@ def _modules(name: str) -> Iterator[tuple[str, bytes]]:
 
 
 def encoded(options: dict[str, Any]) -> str:
-    """Options as one line of text."""
     return json.dumps(options, sort_keys=True)
 
 

@@ -74,7 +74,6 @@ def plan_of(tick: float, neutrals: Mapping[str, float], wiring: "Wiring") -> Pla
 
 
 def to_json(plan: Plan) -> str:
-    """A plan as one line."""
     return json.dumps(encode(plan), ensure_ascii=True, allow_nan=False)
 
 

@@ -67,7 +67,6 @@ class ActuatorOutput:
         self._writing_since: float | None = None
 
     def start(self, device: ActuatorDevice) -> None:
-        """Begin to write."""
         self._device = device
         self._thread.start()
 
