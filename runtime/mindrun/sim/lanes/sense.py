@@ -2,39 +2,7 @@
 
 import numpy as np
 
-from mindrun.numbers.arithmetic import (
-    ANGLE,
-    BOX_COLUMNS,
-    COSINE,
-    DISTANCE,
-    HALF_X,
-    HALF_Y,
-    LANES,
-    LOOSE_ROWS,
-    ONE,
-    SINE,
-    THING_ROWS,
-    TURN,
-    ZERO,
-    F,
-    X,
-    Y,
-    box_of,
-    clamp,
-    highest,
-    length,
-    load,
-    lowest,
-    middle_of,
-    nearer,
-    place_of,
-    sine_cosine,
-    size_of,
-    splat,
-    store,
-    uniform,
-    wrapped,
-)
+from mindrun.numbers.arithmetic import *
 from mindrun.sim.codes import Tables
 from mindrun.sim.kind_lanes import read
 from mindrun.sim.lanes.solid import count_of, put_box, remove_box
