@@ -54,7 +54,6 @@ class Parameters:
         return row
 
     def makings(self) -> Array:
-        """Rows of MAKING."""
         return records(self._makings, codes.MAKING)
 
     def _draw(self, draw: Draw) -> int:
@@ -85,7 +84,6 @@ class Parameters:
         return replace(whole, **{key: type(getattr(kind, key))(value) for key, value in own.items()}) if own else kind
 
     def table(self) -> Array:
-        """Rows of PARAMETER."""
         return records(self._rows, codes.PARAMETER)
 
     def _add(self, form: int, **numbers: float) -> int:

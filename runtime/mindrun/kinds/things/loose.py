@@ -6,16 +6,7 @@ from typing import Annotated
 from mindrun.kinds.bodies.body import Damping, Density
 from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import (
-    DEFAULT_DISTANCE,
-    DEFAULT_SIZE,
-    MOVES,
-    SPEED,
-    Aiming,
-    Becomes,
-    ThingKind,
-    ThingMistake,
-)
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MOVES, SPEED, Aiming, Becomes, ThingMistake
 from mindrun.numbers.quantity import POSITIVE, Quantity, Ratio, Span
 
 LOOSE_SIZE = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1000.0)
@@ -64,7 +55,7 @@ class Loose(Aiming):
         if self.away != DEFAULT_DISTANCE and max(self.away.first, self.away.last) < extent:
             hint = f"Write away {self.largest:g} to {self.largest + 20:g}: it is {self.largest:g} large."
             return ThingMistake("on-the-robot", "So near, it would stand on the robot.", hint)
-        return ThingKind.mistake(self, scene)
+        return Aiming.mistake(self, scene)
 
 
 @kind("content", "box")

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, get_args
 
 from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, SPEED, Aiming, Alternatives, ThingKind, ThingMistake, outside
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, SPEED, Aiming, Alternatives, ThingMistake, outside
 from mindrun.numbers.quantity import ANGLE, Place, Places, Reference
 
 TURNING = replace(ANGLE, low=0.0)
@@ -67,7 +67,7 @@ class Walker(Aiming):
         if not self.along:
             hint = "Write the places of its way: along 0 0 to 10 0 from anywhere."
             lost = ThingMistake("missing-argument", "What has no way begins nowhere on it.", hint)
-            return lost if self.from_ == ANYWHERE else ThingKind.mistake(self, scene)
+            return lost if self.from_ == ANYWHERE else Aiming.mistake(self, scene)
         if self.at or self.within or self.away != DEFAULT_DISTANCE:
             hint = "Leave at, within and away out: it begins where its way does."
             return ThingMistake("place-and-way", "It says where it goes, and where it stands.", hint)
