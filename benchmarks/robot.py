@@ -10,7 +10,7 @@ from statistics import median
 from tempfile import TemporaryDirectory
 
 import numpy as np
-from mindrun.engine.engine import Engine
+from mindrun.engine.changes import ChangedEngine
 from mindrun.graph.bundle import read_bundle
 from mindrun.robot.recording import About, Recorder, read
 from mindrun.robot.replay import replay
@@ -30,7 +30,7 @@ def bundle_of(mind: Path, folder: Path) -> Path:
 def tick(path: Path) -> float:
     """Microseconds of one tick of the engine."""
     bundle = read_bundle(path)
-    engine = Engine(bundle.policy, bundle.procedures)
+    engine = ChangedEngine(bundle.policy, bundle.procedures)
     readings = np.random.default_rng(1).random((1000, bundle.graph.width), np.float32)
     times = []
     for _ in range(7):
@@ -44,7 +44,7 @@ def tick(path: Path) -> float:
 def replayed(path: Path, folder: Path, ticks: int) -> tuple[float, float, bool]:
     """Seconds to read so many recorded ticks, and to compute them again, and whether all are the same."""
     bundle = read_bundle(path)
-    engine = Engine(bundle.policy, bundle.procedures)
+    engine = ChangedEngine(bundle.policy, bundle.procedures)
     readings = np.random.default_rng(2).random((ticks, bundle.graph.width), np.float32)
     day = folder / "day.rec"
     with Recorder(day, About.of(bundle.graph, "0" * 64, bundle.graph.master, ("proximity",))) as recorder:

@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from mindrun.engine.engine import Engine, procedure_sources
+from mindrun.engine.changes import ChangedEngine
+from mindrun.engine.engine import procedure_sources
 from mindrun.engine.think import hierarchy
 from mindrun.graph.weights import reachable
 from mindrun.kinds.sensors.sensor import directions
@@ -68,7 +69,7 @@ def attributed_recording(path: Path, bundle: Path) -> AttributedRun:
     rows = np.concatenate([*parts, np.zeros(0, of.row)])
     if not len(rows):
         raise RecordingError(f"{path} has no tick in it")
-    engine = Engine(mind.policy, mind.procedures, of.master)
+    engine = ChangedEngine(mind.policy, mind.procedures, of.master)
     readings, influence = np.array([engine.readings for _ in computed_again(path, of, rows, engine)]), rows["influence"]
     ready, begins = hierarchy(mind.policy, mind.procedures, of.master), np.flatnonzero(rows["tick"] == 0).tolist()
     flows = EdgeFlows(mind.graph, ready, lambda places: (readings[places], influence[places]), begins)

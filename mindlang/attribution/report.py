@@ -11,6 +11,7 @@ from rich.text import Text
 from mindlang.attribution.shares import MAX_COUNTED_PATHS
 from mindlang.compiler.diagnostic import listed
 from mindlang.number_format import score
+from mindlang.run.summary import shortened
 
 LINE_CHARACTERS = 80
 MAX_NAMED_SKILLS = 4  # of those that sent nothing
@@ -62,7 +63,7 @@ def _share_lines(found: dict[str, Any]) -> Iterator[Text]:
         yield Text(f"{each['share']:9.4f}  {each['part']:6.1%} {bar:<7}{each['value']:8.4f}  {_path(each['path'])}")
         if each["reads"]:
             line = f"{'':11}read {', '.join(f'{name} {_values(values)}' for name, values in each['reads'].items())}"
-            yield Text(line if len(line) <= LINE_CHARACTERS else line[: LINE_CHARACTERS - 1] + "…", "dim")
+            yield Text(shortened(line, LINE_CHARACTERS), "dim")
     for number, text in _others(found):
         yield Text(f"{number:9.4f}  {text}")
     command = f"{'–':>9}" if found["command"] is None else f"{found['command']:9.4f}"

@@ -7,7 +7,6 @@ from functools import cached_property
 import numpy as np
 from mindrun.graph.graph import Task
 from mindrun.graph.run_scores import Scores
-from mindrun.kinds.events.event import Collision, Success
 from mindrun.kinds.registry import phrase
 from mindrun.numbers.expression import leaves
 from mindrun.train.scoring import succeeded
@@ -50,7 +49,8 @@ class Findings:
         """
         ends = {end.event for end in self.task.ends if not end.succeeds and not end.opens}
         paid = {reward.on: amount for reward, amount in zip(self.task.rewards, self._amounts, strict=True)}
-        bad = self._collisions | ends | {event for event, amount in paid.items() if event is not None and amount < 0}
+        mishaps = {number for number, event in enumerate(self.task.events) if event.is_mishap}
+        bad = mishaps | ends | {event for event, amount in paid.items() if event is not None and amount < 0}
         counted = tuple(event for event in self.task.counts if event not in bad)
         if counted or self.task.can_succeed:
             return counted
@@ -80,8 +80,7 @@ class Findings:
     @cached_property
     def free(self) -> Values:
         """The points [policies] of each policy that are paid for nothing that is counted."""
-        lines = [i for i, each in enumerate(self.task.rewards) if each.on in self.goods or self._is_of_success(i)]
-        return np.asarray(self.evidence.scores - self.evidence.lines[:, lines].sum(axis=1))
+        return np.asarray(self.evidence.scores - self.evidence.lines[:, self._good_lines].sum(axis=1))
 
     @cached_property
     def idle(self) -> NDArray[np.bool_]:
@@ -91,8 +90,7 @@ class Findings:
     @cached_property
     def best(self) -> float:
         """The best score of any policy; or, where all count nothing, at least what a single event would pay."""
-        amounts = [amount for i, amount in enumerate(self._amounts) if self._is_good(i)]
-        return float(max([self.evidence.scores.max(), *amounts]))
+        return float(max([self.evidence.scores.max(), *(self._amounts[line] for line in self._good_lines)]))
 
     @property
     def champion(self) -> str:
@@ -110,7 +108,7 @@ class Findings:
         found = dict[int, int]()
         if self.is_counted and self.best > 0:
             lines = self.evidence.lines.copy()
-            lines[:, [i for i in range(len(self.task.rewards)) if self._is_good(i)]] = -np.inf
+            lines[:, self._good_lines] = -np.inf
             payer = lines.argmax(axis=1)
             simple = np.array([SIMPLEST_FIRST.index(probe.group) for probe, _ in self.evidence.origins])
             for row in np.lexsort((simple, -np.floor(self.free / (LOOPHOLE_SHARE * self.best)))):
@@ -216,22 +214,19 @@ class Findings:
         if on is None:
             return False
         ends = (end.event for end in self.task.ends if end.succeeds)
-        return on in ends or isinstance(self.task.events[on], Success)
+        return on in ends or self.task.events[on].is_of_success
 
-    @property
-    def _collisions(self) -> set[int | None]:
-        return {i for i, event in enumerate(self.task.events) if isinstance(event, Collision)}
-
-    def _is_good(self, line: int) -> bool:
-        return self.task.rewards[line].on in self.goods or self._is_of_success(line)
+    @cached_property
+    def _good_lines(self) -> list[int]:
+        """The lines that pay for what is counted, or for a success."""
+        rewards = enumerate(self.task.rewards)
+        return [line for line, reward in rewards if reward.on in self.goods or self._is_of_success(line)]
 
     def _is_one_way(self, line: int) -> bool:
         """True if a line pays for an advance that no other line takes back."""
-        names = [type(each).__name__ for each in self.task.measures]
-        mine = {names[each] for each in leaves(self.task.rewards[line].amount, "measure")}
-        return "Advance" in mine and "Retreat" not in {
-            names[each] for reward in self.task.rewards for each in leaves(reward.amount, "measure")
-        }
+        measured = [leaves(reward.amount, "measure") for reward in self.task.rewards]
+        ways = [{self.task.measures[each].way for each in measures} for measures in measured]
+        return 1 in ways[line] and not any(-1 in each for each in ways)
 
     def _who(self, row: int) -> str:
         probe, number = self.evidence.origins[row]

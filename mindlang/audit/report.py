@@ -12,7 +12,7 @@ from rich.text import Text
 from mindlang.audit.findings import Findings
 from mindlang.audit.probes import Group
 from mindlang.number_format import finite, score
-from mindlang.run.summary import aligned
+from mindlang.run.summary import aligned, shortened
 
 SHOWN: dict[Group, int] = {"still": 1, "moving": 3, "to and fro": 1, "random": 2, "found": 1, "skill": 5}
 NAME_COLUMNS, LINE_COLUMNS = 30, 26
@@ -69,11 +69,11 @@ def audit_table(found: Findings) -> RenderableType:
     table = aligned(
         [
             (
-                _cut(each.name, NAME_COLUMNS),
+                shortened(each.name, NAME_COLUMNS),
                 score(each.score),
                 f"{each.count:.2f}" if found.is_counted else "–",
                 score(each.paid),
-                _cut(each.line.removeprefix("rewards "), min(width, LINE_COLUMNS)),
+                shortened(each.line.removeprefix("rewards "), min(width, LINE_COLUMNS)),
             )
             for each in rows
         ],
@@ -92,7 +92,3 @@ def _chosen(found: Findings) -> Iterator[Row]:
             of = of and [int(np.flatnonzero(found.evidence.of("still"))[0])]
         alike = {(found.evidence.scores[number], found.counts[number]): number for number in reversed(of)}
         yield from (row(found, int(number)) for number in [*reversed(alike.values())][:most])
-
-
-def _cut(text: str, columns: int) -> str:
-    return text if len(text) <= columns else f"{text[: columns - 1]}…"

@@ -31,8 +31,8 @@ from mindlang.compiler.expand import number_values, number_writer
 from mindlang.compiler.parse import parse_stops
 from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import a_name
-from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.resolve.tasks import MAX_RUN_TICKS, TIMES, event_in
+from mindlang.compiler.resolve.quantities import MAX_RUN_TICKS, TIMES, convert
+from mindlang.compiler.resolve.tasks import event_in
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Comparison, Expression, Phrase, Stop, Term, Transmits, When, rebuilt
 

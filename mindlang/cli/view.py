@@ -10,18 +10,20 @@ Examples:
   mindc view day.rec ball.bundle --break day.break  where it had to stop, say
   mindc view robot.local:day.rec ball.bundle --follow  through ssh
   mindc view runs/                         what is being learnt, and champions
+  mindc view car.mind --drive left_wheel,right_wheel --record drive.rec
   mindc view collect.mind --no-interruption --port 8123 --no-browser
   mindc view collect.mind --task Collect --export run.html
 """
 
 import secrets
 import sys
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from mindrun.terminal.arguments import listed_names
 from mindrun.terminal.command_line import command_line
 
 from mindlang.cli import _options as options
@@ -29,10 +31,13 @@ from mindlang.cli import _terminal as terminal
 from mindlang.cli._options import OF_A_CAST, OF_A_RUN, OF_RUNS_ALONE, PATH, RunChoice, refuse_ineffective
 
 if TYPE_CHECKING:
+    from mindlang.compiler.compile import Compiled
+    from mindlang.view.about import Texts
     from mindlang.view.learning import Learning
     from mindlang.view.viewed import Viewed
     from mindlang.view.viewed_recording import Watching
 
+Names = tuple[str, ...] | None
 MAX_PORT = 65535
 
 
@@ -42,11 +47,15 @@ MAX_PORT = 65535
 @options.run_options(seed="The same seed gives the same run. Default: drawn.")
 @click.option("--break", "breaks", type=PATH, metavar="PATH.break", help="Pause the page where a line of it says.")
 @options.flag("--follow", "Of a recording: show what is still written. HOST:FILE.rec is read by ssh.")
+@click.option("--drive", type=listed_names, metavar="NAME,…", help="Drive actuators, or skills' influence, by hand.")
+@options.written("--record", "PATH.rec", "With --drive: write each run, the second to PATH-2.rec.")
 @click.option("--port", type=options.WholeOption(1, MAX_PORT), help="Of this machine. Default: any that is free.")
 @options.unless("--no-browser opens_browser", "Print the address, and open nothing.")
 @options.written("--export", "PATH.html", "Write the page with the run in it, and end.")
 @options.quiet_flag("Print nothing but the address and errors.")
-def command(file: str, bundle: str | None, chosen: RunChoice, breaks: Path | None, follow: bool, **said: Any) -> None:
+def command(
+    file: str, bundle: str | None, chosen: RunChoice, breaks: Path | None, follow: bool, drive: Names, **said: Any
+) -> None:
     """See a run of FILE, or a robot's day, in a browser.
 
     The world, the hierarchy, and every value over time: of a run; of a recording, with the BUNDLE that was running or
@@ -56,11 +65,17 @@ def command(file: str, bundle: str | None, chosen: RunChoice, breaks: Path | Non
     Serves a page at an address of this machine, which nobody else can open, until Ctrl-C; a browser that is closed may
     open it again. With --export it is one file, which opens from a disk without a server. Runs the Python code of
     procedures.
+
+    With --drive a person drives in real time, by keys or a gamepad. Skills that were not taught send 0 then.
     """
     output = ViewOutput(**said)
     if output.export:
         refuse_ineffective("of a page that is served, not of --export", "port", "opens_browser")
         terminal.refuse_unwritable(output.export, ".html")
+    if drive:
+        _drive(file, bundle, chosen, drive, output)
+        return
+    refuse_ineffective("of what is driven by hand, with --drive", "record")
     if follow and bundle is None:
         raise click.UsageError("--follow is for a recording and its bundle: mindc view day.rec NAME.bundle --follow")
     if bundle is not None and (follow or not Path(file).is_dir()):
@@ -81,15 +96,46 @@ def command(file: str, bundle: str | None, chosen: RunChoice, breaks: Path | Non
 def run_view(file: str, chosen: RunChoice, breaks: Path | None) -> "Viewed":
     """A run at its beginning, of a drawn seed where none is said; `breaks` is a file of breakpoints."""
     from mindlang.cli._session import RunSession
-    from mindlang.compiler.drawing import text_after_name
     from mindlang.view.viewed_run import ViewedRun
 
     compiled, session = terminal.load_compiled(file), RunSession()
     _, (setup, rollout), breakpoints = session.prepare_stopping(file, compiled, chosen, breaks)
-    skills = compiled.whole[0].skills
-    texts = {(skill.name, edge.target): text_after_name(edge.fact) for skill in skills for edge in skill.edges}
     seed = secrets.randbits(31) if chosen.seed is None else chosen.seed
-    return ViewedRun(setup, rollout, seed, texts, breakpoints).begun()
+    return ViewedRun(setup, rollout, seed, _texts(compiled), breakpoints).begun()
+
+
+def _drive(file: str, bundle: str | None, chosen: RunChoice, names: tuple[str, ...], output: "ViewOutput") -> None:
+    """Show runs that a hand drives, until Ctrl-C."""
+    from time import monotonic, sleep
+
+    from mindrun.robot.hand import hand_on
+
+    from mindlang.cli._session import RunSession, ensure_compiled, refusing_setups
+    from mindlang.run.setup import set_up
+    from mindlang.view.driven_run import DrivenRuns
+
+    if bundle is not None or Path(file).is_dir() or file.endswith(".rec"):
+        raise click.UsageError("--drive is for a run of a .mind file; a robot is driven by mindrun NAME.bundle --drive")
+    refuse_ineffective("of what is seen alone, not of --drive", "breaks", "export", "interrupt", "follow")
+    terminal.refuse_unwritable(output.record, ".rec")
+    compiled, session = terminal.load_compiled(file), RunSession()
+    with refusing_setups(), terminal.procedures_talk():
+        setup = set_up(file, compiled, chosen.task, chosen.master, untaught=True)
+        hand = hand_on(setup.ready.policy.graph, setup.master, names)
+        ensure_compiled(setup.rollout(), session.say)
+        session.note(*filter(None, (*setup.ready.notes, setup.note)))
+        runs = DrivenRuns(setup, hand, _texts(compiled), monotonic, sleep, output.record, session.say)
+        viewed = runs.begun(chosen.seed)
+    with closing(runs):
+        output.show(viewed)
+
+
+def _texts(compiled: "Compiled") -> "Texts":
+    """The text of each edge, by the names of its skill and of whom it is for."""
+    from mindlang.compiler.drawing import text_after_name
+
+    skills = compiled.whole[0].skills
+    return {(skill.name, edge.target): text_after_name(edge.fact) for skill in skills for edge in skill.edges}
 
 
 @terminal.procedures_talk()
@@ -133,11 +179,15 @@ def _show_recording(file: str, bundle: Path, follow: bool, breaks: Path | None, 
 
 @dataclass(frozen=True, slots=True)
 class ViewOutput:
-    """The output of `mindc view`: the file `export`, or a page served at a `port`, None for any that is free."""
+    """The output of `mindc view`: the file `export`, or a page served at a `port`, None for any that is free.
+
+    `record` is for what is driven by hand.
+    """
 
     port: int | None
     opens_browser: bool
     export: Path | None
+    record: Path | None = None
 
     def show(self, viewed: "Viewed", learning: "Learning | None" = None) -> None:
         """Write the file, or serve until Ctrl-C."""

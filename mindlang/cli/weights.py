@@ -81,6 +81,7 @@ def _lines(found: "Imported", lock: str, recording: str | None) -> Iterator[str]
     from mindlang.training.lock_update import COMPARED_LAYOUTS
 
     trial, compared = found.trial, found.deviation
+    assert compared
     skill, lesson = trial.network.skill.name, trial.lesson
     where = recording or f"a run of {lesson.task}"
     yield (

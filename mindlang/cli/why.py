@@ -8,11 +8,12 @@ Examples:
   mindc why day.rec ball.bundle --tick 812 left_wheel
   mindc why run.rec collect.mind --tick 812 left_wheel   of mindc run --record
   mindc why collect.mind --task Collect --ends --runs 300
+  mindc why drive.rec collect.mind --skills            a drive taken apart
 """
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 from mindrun.processors import cores
@@ -32,6 +33,7 @@ ASKED_ABOUT = options.declared("actuator", "memory", "skill")
 @click.option("--tick", type=options.tick_span, metavar="T or T..U", help="Which ticks, from 1. Default: all of them.")
 @click.option("--paths", type=options.WholeOption(1, 1000), help="How many are named. Default: 10.")
 @options.flag("--ends", "Say how many runs end, and where the robot ran into something.")
+@options.flag("--skills", "Say which skills, with which influence when, explain a recorded drive.")
 @click.option("--runs", type=options.RUNS, default=200, show_default=True, help="With --ends: on how many layouts.")
 @options.json_flag()
 @options.quiet_flag()
@@ -41,6 +43,7 @@ def command(
     tick: tuple[int, int] | None,
     paths: int | None,
     ends: bool,
+    skills: bool,
     runs: int,
 ) -> None:
     """Say who made a command, and with which shares.
@@ -54,11 +57,17 @@ def command(
 
     With --ends and no WHAT many runs are made. Of those that are over before their time it is said what ended them,
     which skill moved the robot most, where on its body it ran into something, and what its rays had read.
+
+    With --skills and no WHAT it is said of a recorded drive, by whomever, which skills of the mind explain its commands
+    with which shares of influence, which stretches none of them does, and which skill could be taught for those.
     """
     if ends:
         where_runs_end(words, chosen, runs)
         return
     options.refuse_ineffective("of --ends", "runs")
+    if skills:
+        take_apart(words)
+        return
     from mindlang.attribution.answer import QuestionError, answer
     from mindlang.attribution.report import answer_text
 
@@ -112,3 +121,25 @@ def where_runs_end(words: Sequence[str], chosen: options.RunChoice, runs: int) -
         made = progress.track(run_ends(setup, rollout, seeds, scores), int(over.sum()), description="their ends")
         data = ends_data(setup, seed, scores, [*made])
     print_result(data, lambda: ends_text(data))
+
+
+def take_apart(words: Sequence[str]) -> None:
+    """Print which skills explain a drive, and what is left over."""
+    from mindlang.attribution.mixture import taken_apart
+    from mindlang.attribution.mixture_report import mixture_data, mixture_text
+    from mindlang.cli._session import refusing_recordings
+    from mindlang.cli._terminal import fail, load_compiled
+    from mindlang.training.subject import open_subject
+
+    options.refuse_ineffective("not for --skills, which takes a whole recording apart", "tick", "paths")
+    options.refuse_ineffective(options.OF_RUNS_ALONE, *options.OF_A_RUN)
+    if len(words) != 2 or not words[0].endswith(".rec"):
+        raise click.UsageError("--skills is of a recording and a mind: mindc why drive.rec collect.mind --skills.")
+    recording, file = words
+    with refusing_recordings():
+        subject, found = open_subject(Path(file), load_compiled(file)), list[dict[str, Any]]()
+        for drive, mixtures in taken_apart(subject, [Path(recording)]):
+            found += mixture_data(subject.graph, drive, mixtures)
+    if not found:
+        fail(f"No skill of {file} that is taught reads what {recording} has.", "mindc status says which are.", MISUSE)
+    print_result(found, lambda: mixture_text(found, recording, file))

@@ -87,8 +87,8 @@ class Findings:
         yield
         if len(self.diagnostics) > before:
             known = {(each.code, each.span) for each in self.diagnostics[:before]}
-            found = self.diagnostics[before:]
-            self.diagnostics[before:] = [each for each in found if (each.code, each.span) not in known]
+            found = {(each.code, each.span): each for each in reversed(self.diagnostics[before:])}
+            self.diagnostics[before:] = [found[key] for key in reversed(found) if key not in known]
 
     def suggest(self, word: str, *known: Iterable[str]) -> str:
         """`did_you_mean` for the first diagnostics: comparing names takes time, and nobody reads more."""

@@ -164,11 +164,15 @@ def _subject(fact: Fact) -> Hashable:
         case syntax.Outcome(_, event, when):
             opened = (fact.name.text,) if isinstance(fact, syntax.Opens) and fact.name else ()
             about = *opened, _text(event), _text(when)
-        case syntax.Counts(event):
+        case syntax.Counts(event) | syntax.Wants(event=event):
             about = (_text(event),)
+        case syntax.Keeps(when):
+            about = (_text(when),)
+        case syntax.Prefers(how, amount):
+            about = how.text, _text(amount)
         case syntax.Rewards(amount, None, each, when):
-            read = frozenset(_text(term) for term in amount.terms if isinstance(term, Phrase))
-            about = read, each and each.sensor.text, _text(when)
+            read = frozenset(_text(term) for term in amount.terms if isinstance(term, Phrase | syntax.Tally))
+            about = read, fact.final is None, each and each.sensor.text, _text(when)
         case syntax.Rewards(_, on, _, when):
             about = _text(on), _text(when)
         case syntax.Lasts() | syntax.Starts():  # is said once
@@ -178,6 +182,6 @@ def _subject(fact: Fact) -> Hashable:
     return type(fact), *about
 
 
-def _text(node: Phrase | syntax.When | None) -> str:
+def _text(node: Phrase | syntax.When | syntax.Tally | syntax.Expression | None) -> str:
     """The source text with single spaces; empty for None."""
     return " ".join(said(node).split()) if node else ""

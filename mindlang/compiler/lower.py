@@ -13,7 +13,9 @@ from mindlang.compiler.families import said
 from mindlang.compiler.format import spaced
 from mindlang.compiler.hierarchy import topological_order
 from mindlang.compiler.references import DRIVABLE_NOUNS
-from mindlang.compiler.syntax import Expression, When, verb_of
+from mindlang.compiler.syntax import VERBS, Expression, Rewards, When, verb_of
+
+GOALS_MET = "all goals met"  # the end of a run with goals
 
 T = TypeVar("T")
 
@@ -22,13 +24,15 @@ T = TypeVar("T")
 class Places:
     """Indices of the names in expressions: readings as (start, width), actuators, what a task draws, and measures.
 
-    Measures are added to.
+    Measures, events and tallies are added to.
     """
 
     readings: Mapping[str, tuple[int, int]]
     actuators: Mapping[str, int] = field(default_factory=dict)
     measures: dict[Any, int] = field(default_factory=dict)
     draws: Mapping[Any, int] = field(default_factory=dict)
+    events: dict[Any, int] = field(default_factory=dict)
+    tallies: dict[Any, int] = field(default_factory=dict)
 
 
 def lower(mind: model.Mind) -> graph.Graph:
@@ -92,7 +96,7 @@ def _edges(skill: model.Skill, numbers: Mapping[str, Mapping[str, int]], places:
 
 
 def _task(task: model.Task, places: Places) -> graph.Task:
-    events: dict[Any, int] = {}
+    events = places.events
     ends = tuple(dict.fromkeys(_end(end, events, places) for end in task.ends))
     rewards = tuple(_reward(reward, events, places) for reward in task.rewards)
     counts = tuple(dict.fromkeys(_event(event, events) for event in task.counts))
@@ -100,14 +104,17 @@ def _task(task: model.Task, places: Places) -> graph.Task:
     things = tuple(graph.Thing(each.name, each.kind, when, each.by, each.many) for each, when in whens)
     return graph.Task(
         task.name, task.scene, things, task.ticks, tuple(places.measures), tuple(events), ends, rewards, counts
-    , task.start, task.varies, task.fails, task.draws)  # fmt: skip
+    , task.start, task.varies, task.fails, task.draws, tuple(places.tallies))  # fmt: skip
 
 
 def _end(end: model.End, events: dict[Any, int], places: Places) -> graph.End:
     event = None if end.event is None else _event(end.event, events)
     if end.when is None:
         return graph.End(event, end.times, None, end.succeeds, opens=end.opens)
-    text = spaced(f"ends {said(end.fact.when)}").removeprefix("ends when ")
+    if said(end.fact).startswith(verb_of(end.fact)):
+        text = spaced(f"ends {said(end.fact.when)}").removeprefix("ends when ")
+    else:  # of a goal
+        text = GOALS_MET if end.succeeds else spaced(said(end.fact))
     return graph.End(event, end.times, program_of(end.when, places), end.succeeds, text, end.opens)
 
 
@@ -126,12 +133,19 @@ def _index(value: T, known: dict[T, int]) -> int:
 
 def _reward(reward: model.Reward, events: dict[Any, int], places: Places) -> graph.Reward:
     return graph.Reward(
-        spaced(said(reward.fact)),
+        _reward_text(reward.fact),
         program_of(reward.amount, places),
         None if reward.on is None else _event(reward.on, events),
         None if reward.each is None else places.readings[reward.each],
         None if reward.when is None else program_of(reward.when, places),
+        bool(reward.fact.final),
     )
+
+
+def _reward_text(fact: Rewards) -> str:
+    """The line of a reward; of a goal the goal, or what it pays for being near to what that wants."""
+    text = spaced(said(fact))
+    return text if text.partition(" ")[0] in VERBS else f"near to {text}"
 
 
 def program_of(expression: Expression | When, places: Places) -> graph.Program:
@@ -147,6 +161,11 @@ def program_of(expression: Expression | When, places: Places) -> graph.Program:
                 return word, places.draws[operand]
             case "measure":
                 return word, _index(operand, places.measures)
+            case "tally":
+                event = None if operand.event is None else _event(operand.event, places.events)
+                when = None if operand.when is None else program_of(operand.when, places)
+                of = None if operand.value is None else program_of(operand.value, places)
+                return word, _index(graph.Tally(event, when, operand.word.text == "longest", of), places.tallies)
         return word, operand
 
     return tuple(placed(*instruction) for instruction in expression.formula)

@@ -93,7 +93,7 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
             yield from _if_any(stands_for, *READABLE_NOUNS)
         case syntax.Sends():
             yield from _in_output(line)
-        case syntax.Promise():
+        case syntax.Promise() | syntax.Keeps() | syntax.Prefers():
             yield from _in_expressions(*syntax.expressions_in(line))
         case syntax.Contains(name, phrase):
             yield name, ("thing",)
@@ -105,13 +105,13 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
             yield of, (*VARIED_NOUNS, "thing")
         case syntax.Fails(name):
             yield name, ("actuator", "sensor")
-        case syntax.Outcome(event=event) | syntax.Counts(event):
+        case syntax.Outcome(event=event) | syntax.Counts(event) | syntax.Wants(event=event):
             yield from _if_any(line.name if isinstance(line, syntax.Opens) else None, "thing")
             yield from _in_phrase("event", event)
             yield from _in_expressions(*syntax.expressions_in(line))
         case syntax.Rewards(amount, on, each, when):
             own = each.name.text if each else ""
-            yield from _in_expressions(amount, *syntax.expressions_in(when), own=own)
+            yield from _in_expressions(*syntax.expressions_in(amount, when), own=own)
             yield from _in_phrase("event", on)
             yield from _if_any(each.sensor if each else None, *READABLE_NOUNS)
         case syntax.Teaches():
@@ -144,7 +144,9 @@ def _if_any(name: Name | None, *nouns: str) -> Iterator[Named]:
 def _in_expressions(*expressions: syntax.Expression | None, own: str = "") -> Iterator[Named]:
     """The readings and commands in expressions, and the things that their measures are about."""
     for term in (term for expression in expressions if expression for term in expression.terms):
-        if isinstance(term, Phrase) and term.arguments:
+        if isinstance(term, syntax.Tally):
+            yield from _in_phrase("event", term.event)
+        elif isinstance(term, Phrase) and term.arguments:
             yield from _in_phrase("measure", term)
         elif isinstance(term, Phrase) and term.kind.text != own:
             yield term.kind, VALUE_NOUNS

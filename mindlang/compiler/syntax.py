@@ -1,6 +1,7 @@
 """The tree of a file: one small struct per fact, each with its span. Nothing in it is checked yet."""
 
 from collections.abc import Callable, Iterable, Iterator
+from math import inf
 from typing import Any, TypeVar
 
 from msgspec import Struct
@@ -15,6 +16,7 @@ NOUNS = (*PARTS, *WHOLES, "task")
 VERBS = (
     "reads", "drives", "influences", "chooses", "stays", "uses", "requires", "maintains", "achieves", "contains",
     "starts", "draws", "varies", "fails", "lasts", "ends", "succeeds", "opens", "rewards", "counts", "teaches",
+    "wants", "avoids", "keeps", "then", "prefers",
 )  # fmt: skip
 SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
 
@@ -147,7 +149,7 @@ class Term(Struct, frozen=True):
 class Expression(Struct, frozen=True):
     """Terms in postfix order: a flat tuple, so that no depth of nesting ever needs a deep stack."""
 
-    terms: tuple[Amount | Phrase | Term, ...]
+    terms: tuple["Amount | Phrase | Term | Tally", ...]
     span: Span
 
     @property
@@ -156,8 +158,11 @@ class Expression(Struct, frozen=True):
         return tuple((term.word, term.operand) for term in of_form(self.terms, Term))
 
     def found(self, word: str) -> list[Term]:
-        """The resolved terms of a word, such as reading."""
-        return [term for term in of_form(self.terms, Term) if term.word == word]
+        """The resolved terms of a word, such as reading, also in the conditions of its tallies."""
+        resolved = of_form(self.terms, Term)
+        tallies = ((term.operand.when, term.operand.value) for term in resolved if term.word == "tally")
+        nested = (each for inner in expressions_in(*tallies) for each in inner.found(word))
+        return [*(term for term in resolved if term.word == word), *nested]
 
 
 class Comparison(Struct, frozen=True):
@@ -167,6 +172,21 @@ class Comparison(Struct, frozen=True):
     compare: str
     right: Expression
     span: Span
+
+
+class Tally(Struct, frozen=True):
+    """`(count of EVENT …)`, `(count when CONDITION)`, `(longest when CONDITION)` or `(sum of EXPRESSION …)`, of a run.
+
+    Once it is resolved its `event` is one, and no longer a phrase.
+    """
+
+    word: Name
+    event: Any
+    when: "When | None"
+    value: "Expression | None"
+    span: Span
+
+    interval = (0.0, inf)
 
 
 class Transmits(Struct, frozen=True):
@@ -366,6 +386,7 @@ class Rewards(Struct, frozen=True):
     each: Each | None
     when: When | None
     span: Span
+    final: Name | None = None
 
 
 class Counts(Struct, frozen=True):
@@ -373,6 +394,56 @@ class Counts(Struct, frozen=True):
 
     event: Phrase
     span: Span
+
+
+class Deadline(Struct, frozen=True):
+    """`within AMOUNT`, or `after AMOUNT`, of a goal"""
+
+    amount: Amount
+    span: Span
+
+
+class Lasting(Deadline, frozen=True):
+    """`for AMOUNT`"""
+
+
+class Wants(Struct, frozen=True):
+    """`wants [TIMES] EVENT [within AMOUNT]`, a goal"""
+
+    times: Amount | None
+    event: Phrase
+    time: Deadline | None
+    span: Span
+    then: bool = False
+
+
+class Avoids(Outcome, frozen=True):
+    """`avoids [TIMES] EVENT` or `avoids CONDITION`, a goal"""
+
+    time = None
+    then = False
+
+
+class Keeps(Struct, frozen=True):
+    """`keeps CONDITION [after AMOUNT]` or `keeps CONDITION for AMOUNT`, a goal"""
+
+    when: When
+    time: Deadline | None
+    span: Span
+    then: bool = False
+
+    times = None
+
+
+class Prefers(Struct, frozen=True):
+    """`prefers soon`, `prefers little EXPRESSION` or `prefers much EXPRESSION`"""
+
+    how: Name
+    amount: Expression | None
+    span: Span
+
+
+Goal = Wants | Avoids | Keeps
 
 
 class Needs(Struct, frozen=True):
@@ -400,7 +471,8 @@ class Teaches(Struct, frozen=True):
 
 Fact = (
     Reads | Drives | Influences | Chooses | Stays | Uses | Promise | Contains | Starts | Draws | Varies | Fails | Lasts
-    | Ends | Succeeds | Opens | Rewards | Counts | Teaches
+    | Ends | Succeeds | Opens | Rewards | Counts | Teaches | Wants | Avoids | Keeps
+    | Prefers
 )  # fmt: skip
 
 
@@ -545,12 +617,13 @@ def expressions_in(*nodes: Any) -> Iterator[Expression]:
         match node:
             case Expression():
                 yield node
+                yield from expressions_in(*((each.when, each.value) for each in of_form(node.terms, Tally)))
             case Header(at=at, gate=gate):
                 yield from expressions_in(at, gate)
             case Contains(phrase=phrase, when=when):
                 yield from (each for of in phrase.arguments if isinstance(of.value, Sums) for each in of.value.sums)
                 yield from expressions_in(when)
-            case Sends() | Gate() | Outcome() | When() | Comparison() | Rewards():
+            case Sends() | Gate() | Outcome() | When() | Comparison() | Rewards() | Keeps() | Prefers():
                 yield from expressions_in(*astuple(node))
             case tuple():
                 yield from expressions_in(*node)

@@ -10,7 +10,7 @@ from mindlang.explaining.drivers import driver_articles
 from mindlang.explaining.kinds import kind_articles
 from mindlang.explaining.words import word_articles
 
-ERROR, RULE = "error", "lint rule"  # sorts of codes
+ERROR, RULE, FINDING = "error", "lint rule", "finding"  # sorts of codes
 # Nouns of kinds that people say as well.
 ALSO_CALLED = {"task": "scene", "content": "thing", "function": "skill", "mindc": "command"}
 NAMED_OWNERS = 4  # of an argument, so many of whose kinds are named
@@ -43,8 +43,9 @@ def unknown_hint(asked: str, among: Iterable[Article]) -> str:
 
 @cache
 def codes() -> dict[str, Article]:
-    """All codes: errors in the order of their chapters, then the lint rules."""
-    return {each.name: each for each in (*error_articles(), *_of_codes("rules.md", RULE))}
+    """All codes: errors in the order of their chapters, then the lint rules, then what an audit finds."""
+    said = *error_articles(), *_of_codes("rules.md", RULE), *_of_codes("findings.md", FINDING)
+    return {each.name: each for each in said}
 
 
 def error_articles() -> Iterator[Article]:

@@ -54,7 +54,7 @@ def _folded(
                 return operand, operand
             case "reading":
                 return reading(operand)
-            case "measure" | "drawn":
+            case "measure" | "drawn" | "tally":
                 interval: Interval = operand.interval
                 return interval
         return each if word == "each" else UNIT_INTERVAL

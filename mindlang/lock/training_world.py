@@ -61,6 +61,7 @@ FORMS = {
         "Lesson",
         *(("task", str), ("master", str), ("with_subskills", bool), ("from_scratch", bool), ("learner", KindForm)),
         ("starts_from", str, ""),
+        ("hard", str, ""),
     ),
 }  # what a fact may be, by its subject or, of those with a name, by the noun in NAMED
 

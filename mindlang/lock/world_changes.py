@@ -47,6 +47,9 @@ def _changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
     before, after = _beginning(old["lesson"]), _beginning(now["lesson"])
     if before != after:
         yield f"taught {before}, now {after}"
+    before, after = (lesson.get("hard", "none") for lesson in (old["lesson"], now["lesson"]))
+    if before != after:
+        yield f"taught with hard layouts {before}, now {after}"
     yield from _kind_changes("curriculum", "the learner", old["lesson"]["learner"], now["lesson"]["learner"])
 
 

@@ -14,7 +14,7 @@ from typing import Any
 
 from mindrun.errors import ProcedureError
 from mindrun.graph.codec import encode
-from mindrun.graph.graph import Edge, Graph, Lesson, Program, Reward, Skill, Start, Task
+from mindrun.graph.graph import Edge, Graph, HardLayouts, Lesson, Program, Reward, Skill, Start, Tally, Task
 from mindrun.graph.skill_sets import genes, reachable
 from mindrun.graph.tasks import physics
 from mindrun.kinds.environment import module_beside
@@ -29,6 +29,7 @@ from mindlang.lock.training_world import LessonKey, TrainingWorld
 
 LOOSEST_FIRST = (("otherwise",), ("when",), ("or",), ("and",), TRUTHS[:4], ("+", "-"), ("*", "/"))
 PRECEDENCE = {word: place for place, words in enumerate(LOOSEST_FIRST) for word in words}
+HASH_DIGITS = 16
 NEGATION_PRECEDENCE, EXTREME_PRECEDENCE, ATOM_PRECEDENCE = 7, 8, 9
 
 UNSAID_VALUES: tuple[Any, ...] = (
@@ -56,7 +57,8 @@ class Worlds:
         origin = {"starts_from": lesson.starts_from} if lesson.starts_from else {}
         learner = encode(lesson.learner)
         del learner["keeps"]  # it decides about what was learnt, and changes none of it
-        how = {"from_scratch": lesson.from_scratch, **origin, "learner": learner}
+        hard = {"hard": hard_words(lesson.hard)} if lesson.hard else {}
+        how = {"from_scratch": lesson.from_scratch, **origin, **hard, "learner": learner}
         return self.of_gone(LessonKey(lesson.task, lesson.master, lesson.with_subskills), {**where, **how})
 
     def of_gone(self, lesson: LessonKey, said: Mapping[str, Any]) -> TrainingWorld:
@@ -207,6 +209,8 @@ class Worlds:
             match word:
                 case "measure":
                     return phrase(task.measures[int(operand)])
+                case "tally":
+                    return self._tally(task, task.tallies[int(operand)], leaf)
                 case "drawn":
                     return task.draws[int(operand)].name
                 case "command":
@@ -215,10 +219,19 @@ class Worlds:
 
         return leaf
 
+    def _tally(self, task: Task, tally: Tally, leaf: Leaf) -> str:
+        """A tally as it is written."""
+        words = ["longest" if tally.longest else "sum of" if tally.value else "count"]
+        words += [infix(tally.value, leaf)] if tally.value else []
+        words += ["of", phrase(task.events[tally.event])] if tally.event is not None else []
+        words += ["when", infix(tally.when, leaf)] if tally.when else []
+        return f"({' '.join(words)})"
+
     def _reward(self, task: Task, reward: Reward) -> Iterator[str]:
         leaf = self._leaf_of(task)
         yield infix(reward.amount, leaf)
         words = ["per tick" if reward.on is None else f"on {phrase(task.events[reward.on])}"]
+        words = ["at the end"] if reward.last else words
         if reward.each:
             words.append(f"for each p in {self._names[reward.each[0]]}")
         if reward.when is not None:
@@ -227,6 +240,12 @@ class Worlds:
 
     def _leaf(self, word: str, operand: float | int) -> str:
         return self._names[int(operand)]
+
+
+def hard_words(hard: HardLayouts) -> str:
+    """The hard layouts of a lesson: their share, how many there are, and a hash of their seeds."""
+    digest = sha256("\n".join(hard.seeds).encode()).hexdigest()[:HASH_DIGITS]
+    return f"{100 * hard.share:g}% of {len(hard.seeds)} layouts {digest}"
 
 
 def infix(program: Program, leaf: Leaf) -> str:

@@ -14,10 +14,14 @@ from mindrun.sim.codes import BROKEN_OFF, GOING_ON, LOST
 from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
 
+from mindlang.compiler.resolve.goals import GOAL_POINTS, PREFERENCE_POINTS
 from mindlang.number_format import finite
 from mindlang.run.paired_difference import unseen_share
 
 TIME = "time"
+PREFERS = "prefers"
+GOAL_WORDS = ("wants", "avoids", "keeps", "then", PREFERS)  # with which the line of a goal begins
+LEAST_SHARE = 1 - 1e-9  # of a goal that is met, for rounding
 NOTHING = np.zeros(0)
 OTHERWISE = {LOST: "flight out of bounds", BROKEN_OFF: "its environment"}  # beyond 1e9 units, or nowhere; truncated
 
@@ -37,6 +41,24 @@ def ends(task: Task) -> list[str]:
 def ended_by(task: Task, number: int) -> str | None:
     """The end that came, by its number there; None where a run lasted its time, or goes on."""
     return ends(task)[number] if 0 <= number < len(task.ends) else OTHERWISE.get(number)
+
+
+def met_goals(task: Task, scores: Scores) -> list[dict[str, Any]]:
+    """How much of each goal of a task was met in the runs of one genome, 0 to 1, and in what share of them all of it.
+
+    Of what the task prefers, how much in the mean alone. Nothing where it has no goals.
+    """
+    lines = {reward.text: i for i, reward in enumerate(task.rewards) if reward.text.partition(" ")[0] in GOAL_WORDS}
+    preferred = [text for text in lines if text.startswith(PREFERS)]
+    found = []
+    for text, i in lines.items():
+        points = (
+            PREFERENCE_POINTS / len(preferred) if text in preferred else GOAL_POINTS / (len(lines) - len(preferred))
+        )
+        share = scores.by_line[0, :, i] / points
+        met = None if text in preferred else float((share > LEAST_SHARE).mean())
+        found.append({"goal": text, **_spread("", share), "met": met})
+    return found
 
 
 def over_at_once(task: Task, scores: Scores) -> list[str]:
@@ -114,6 +136,7 @@ def bench_data(
         "counted": [happened[event] for event in task.counts],
         "by_event": {happened[event]: _spread("", scores.by_event[0, :, event]) for event in task.counts},
         **({"success": _success(succeeded(task, scores)[0].astype(float))} if task.can_succeed else {}),
+        **({"goals": goals} if (goals := met_goals(task, scores)) else {}),
         "runtime_mean": float(scores.ticks[0].mean() / task.ticks),
         "ended": {ended_by(task, number) or TIME: ended[number] for number in numbers if ended[number]},
         **_spread("score_", totals),

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from mindlang.compiler.compile import load
 from mindlang.lock.status import ReadyMind, make_ready
 from mindlang.run.recorded_run import Floats, RecordedRun
-from mindlang.run.setup import RunSetup
+from mindlang.run.setup import RunSetup, with_zero_weights
 
 NO_BOX = AWAY, AWAY, 0.0, 0.0  # in the place of an obstacle that is nowhere
 SOURCE_SUFFIX = ".mind"
@@ -67,7 +67,7 @@ def _built(path: Path, of: About) -> tuple[Bundle, str]:
         ready = make_ready(compiled.graph, compiled.sources, master)
         if ready.refusals and found:
             continue
-        found = bundle_without_robot(ready, compiled.sources[0].folder)
+        found = bundle_without_robot(with_zero_weights(ready), compiled.sources[0].folder)
         sha = sha256(pack(found)).hexdigest()
         if sha == of.bundle:
             break

@@ -10,12 +10,13 @@ import numpy as np
 from mindrun.graph.graph import Task
 from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores
-from mindrun.graph.skill_sets import owners, reachable
+from mindrun.graph.skill_sets import genes, owners, reachable
 from mindrun.graph.tasks import is_one_world
 from mindrun.processors import cpu_seconds
 from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.compile import Compiled
+from mindlang.compiler.diagnostic import listed
 from mindlang.executors.jobs import Block, JobScorer, empty_scores, write_scores
 from mindlang.limits import RUN_BOUNDS, SEED_BOUNDS, bounded_int
 from mindlang.lock.status import ReadyMind, make_ready
@@ -69,12 +70,18 @@ class RunSetup:
         return rollout_for(of, task, self.master, procedures=self.folder, interrupt=interrupt, workers=workers)
 
 
-def set_up(file: str, compiled: Compiled, task: str | None, master: str | None) -> RunSetup:
-    """The task and the master of these names, or the default ones; SetupError where they cannot run."""
+def set_up(file: str, compiled: Compiled, task: str | None, master: str | None, untaught: bool = False) -> RunSetup:
+    """The task and the master of these names, or the default ones; SetupError where they cannot run.
+
+    Where skills may be `untaught`, those that are have weights of 0.
+    """
     _, graph = compiled.whole
     chosen, note = task_of(graph, task)
     leader = master_of(graph, chosen, master)
-    return RunSetup(chosen, leader, ready_to_act(file, compiled, leader), compiled.sources[0].folder, note)
+    folder = compiled.sources[0].folder
+    if untaught:
+        return RunSetup(chosen, leader, with_zero_weights(make_ready(graph, compiled.sources, leader)), folder, note)
+    return RunSetup(chosen, leader, ready_to_act(file, compiled, leader), folder, note)
 
 
 def ready_to_act(file: str, compiled: Compiled, master: str | None = None) -> ReadyMind:
@@ -84,6 +91,16 @@ def ready_to_act(file: str, compiled: Compiled, master: str | None = None) -> Re
     if ready.refusals:
         raise SetupError("\n".join(ready.refusals), train_command(Path(file), ready))
     return ready
+
+
+def with_zero_weights(ready: ReadyMind) -> ReadyMind:
+    """The mind with weights of 0 for each skill that has none that fit, which then sends 0 whatever it reads."""
+    graph, untaught = ready.policy.graph, untaught_skills(ready)
+    if not untaught:
+        return ready
+    zeros = {skill.name: np.zeros(genes(skill), np.float32) for skill in graph.skills if skill.name in untaught}
+    said = f"not taught, and so sending 0 whatever is read: {listed(untaught, 'and')}"
+    return ReadyMind(Policy(graph, {**ready.policy.weights, **zeros}), (), (*ready.notes, said))
 
 
 def train_command(file: Path, ready: ReadyMind) -> str:

@@ -62,7 +62,22 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
         ("speed", f"{speed(found)} {who}, in {duration(found['seconds'])}"),
         ("faults", _faults(found)),
     )
-    return Group(_title(found), facts, *_promises(found))
+    return Group(_title(found), facts, *_goals(found), *_promises(found))
+
+
+def _goals(found: dict[str, Any]) -> Iterator[RenderableType]:
+    """A row for each goal: how much of it was met in the mean, and in how many runs all of it."""
+    if goals := found.get("goals"):
+        rows = [
+            (
+                _cut(each["goal"], PROMISE_COLUMNS),
+                "–" if each["mean"] is None else f"{each['mean']:.1%}",
+                "" if each["met"] is None else f"{round(each['met'] * found['runs']):,}",
+            )
+            for each in goals
+        ]
+        yield ""
+        yield aligned(rows, (0,), ("goal", "met", f"all of it in {found['runs']:,} runs"))
 
 
 def _promises(found: dict[str, Any]) -> Iterator[RenderableType]:
@@ -306,6 +321,11 @@ def credit_summary(found: dict[str, Any], credited: Mapping[str, PairedDifferenc
             is_silent,
         ),
     )
+
+
+def shortened(text: str, columns: int) -> str:
+    """A text cut to so many columns."""
+    return text if len(text) <= columns else f"{text[: columns - 1]}…"
 
 
 def aligned(rows: Iterable[Row], left: Collection[int], head: Sequence[str] = ()) -> Text:

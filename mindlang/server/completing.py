@@ -27,6 +27,7 @@ from mindlang.compiler.parse.shape import Start, grammar, parse_line
 from mindlang.compiler.references import names_in
 from mindlang.compiler.resolve.curricula import MEASURED, SWITCHES, USING
 from mindlang.compiler.resolve.kinds import about
+from mindlang.compiler.resolve.layouts import HARD
 from mindlang.compiler.source import Source
 from mindlang.compiler.syntax import Amount, Declaration, Header, Phrase, Teaches
 from mindlang.editing.insertion import OWNERS
@@ -263,9 +264,9 @@ def _arguments(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
             cls = kinds(said.noun).get(said.kind)
             yield from keys(each for each in named_arguments(cls) if each.key not in written) if cls else ()
             if is_lesson:
-                switches = {**{key: f"{key} {word}" for key, (word, _) in SWITCHES.items()}, USING: USING}
+                switches = {**{key: f"{key} {word}" for key, (word, _) in SWITCHES.items()}, USING: USING, HARD: HARD}
                 yield from words(*(label for key, label in switches.items() if key not in written))
-            if said.kind == FAULT:
+            if said.kind == FAULT or (is_lesson and HARD in written):
                 yield from words(OF)
         case key, None if is_lesson and key in SWITCHES:
             yield from words(SWITCHES[key][0])

@@ -131,6 +131,8 @@ def _of_header(project: Project, declaration: Declaration) -> Iterator[Proposal]
     noun, name = declaration.header.noun.text, declaration.header.name.text
     if noun != "body":
         yield Proposal(f"Remove {noun} {name}", "remove", {"what": [noun, name]})
+    if noun == "task":
+        yield Proposal("Write out what the goals reward", "rewards", {"task": name})
     if noun != "skill":
         return
     for verb, target in _connectable(project, declaration):

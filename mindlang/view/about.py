@@ -6,8 +6,9 @@ from typing import Any, NamedTuple
 from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Graph, Skill, Task
 from mindrun.graph.named_readings import reading_names, servo_reading
-from mindrun.graph.recording_header import About, RecordedWorld
+from mindrun.graph.recording_header import About
 from mindrun.kinds.registry import names
+from mindrun.robot.hand import hand_on
 from mindrun.sim.task_rows import opened_boxes, things_of
 
 from mindlang.pictures.scene import half_sides, thing_colours
@@ -45,14 +46,18 @@ def about_data(
         "seed": str(of.world.seed) if task and of.world else None,
         "rewards": [shown(text) for text in rewards],
         "ends": [shown(text) for text in outcome.ends(task)] if task else [],
-        "world": _world(graph, task, of.world, columns) if task and of.world and has_robot else None,
+        "world": _world(graph, task, of, columns) if task and of.world and has_robot else None,
+        "by_hand": hand_data(of, graph),
         "curves": _curves(graph, skills, columns, rewards, has_robot),
-        **_hierarchy(graph, of.master, skills, columns, texts),
+        **_hierarchy(graph, of, skills, columns, texts),
     }
 
 
-def _nodes(graph: Graph, skills: Sequence[Skill]) -> dict[tuple[str, int], PlacedNode]:
-    """The nodes by noun and place there: sensors, memories, the skills that are reached, actuators."""
+def _nodes(graph: Graph, skills: Sequence[Skill], by_hand: Sequence[str]) -> dict[tuple[str, int], PlacedNode]:
+    """The nodes by noun and place there: sensors, memories, the skills that are reached, actuators.
+
+    An actuator that is `by_hand` has the command that it was sent, and every other that of the mind.
+    """
     found: dict[tuple[str, int], PlacedNode] = {}
     for place, sensor in enumerate(graph.sensors):
         places = range(sensor.start, sensor.start + sensor.width)
@@ -63,13 +68,19 @@ def _nodes(graph: Graph, skills: Sequence[Skill]) -> dict[tuple[str, int], Place
         if skill in skills:
             found["skill", place] = PlacedNode(skill.name, skill.function, "influence", [place])
     for place, actuator in enumerate(graph.actuators):
-        found["actuator", place] = PlacedNode(actuator.name, actuator.kind, "commands", [place])
+        found["actuator", place] = PlacedNode(
+            actuator.name, actuator.kind, _acting_group(actuator.name, by_hand), [place]
+        )
     return found
 
 
-def _hierarchy(graph: Graph, master: str, skills: Sequence[Skill], columns: Columns, texts: Texts) -> Data:
+def _acting_group(actuator: str, by_hand: Sequence[str]) -> str:
+    return "sent" if actuator in by_hand else "commands"
+
+
+def _hierarchy(graph: Graph, of: About, skills: Sequence[Skill], columns: Columns, texts: Texts) -> Data:
     """`nodes`, `edges` and `reads`."""
-    nodes = _nodes(graph, skills)
+    nodes = _nodes(graph, skills, of.by_hand)
     numbers = {node: number for number, node in enumerate(nodes)}
     read_from = [numbers[key] for key, node in nodes.items() if node.group == "readings" for _ in node.places]
     own = {skill.name: numbers["skill", graph.skill_numbers[skill.name]] for skill in skills}
@@ -81,7 +92,7 @@ def _hierarchy(graph: Graph, master: str, skills: Sequence[Skill], columns: Colu
                 "kind": noun,
                 "says": names().get(type(node.kind), ""),
                 "columns": [columns[node.group].column(place) for place in node.places],
-                "master": noun == "skill" and node.name == master,
+                "master": noun == "skill" and node.name == of.master,
                 "chooses": noun == "skill" and graph.skills[place].chooses,
                 "promises": promises.get(node.name, []) if noun == "skill" else [],
             }
@@ -125,6 +136,12 @@ def order_data(graph: Graph) -> list[Data]:
     ]
 
 
+def hand_data(of: About, graph: Graph) -> list[Data]:
+    """The actuators and skills that a hand holds: the name of each, its neutral number, and what it does to wheels."""
+    held = hand_on(graph, of.master, of.by_hand).held
+    return [{"name": name, "neutral": each.neutral, "role": each.role} for name, each in held.items()]
+
+
 def _curves(
     graph: Graph, skills: Sequence[Skill], columns: Columns, rewards: Sequence[str], has_robot: bool
 ) -> list[Data]:
@@ -149,11 +166,12 @@ def _curves(
     ]
 
 
-def _world(graph: Graph, task: Task, world: RecordedWorld, columns: Columns) -> Data:
+def _world(graph: Graph, task: Task, of: About, columns: Columns) -> Data:
     """The arena, what stands in it, its things with their colours, and the robot; lengths in units, angles in rad."""
     contents = things_of(task)
     colours = zip(thing_colours(contents, PAPER), thing_colours(contents, NIGHT), strict=True)
-    body, opened = graph.body, opened_boxes(task)
+    assert of.world
+    body, opened, world = graph.body, opened_boxes(task), of.world
     standing = [(number, box) for number, box in enumerate(world.boxes) if box]
     return {
         "arena": [*half_sides(task.scene)] if task.scene.is_bounded else None,
@@ -176,7 +194,7 @@ def _world(graph: Graph, task: Task, world: RecordedWorld, columns: Columns) -> 
             "side": body.side,
             "axles": body.axle_distance,
             **_sensing(graph, columns),
-            **_acting(graph, columns),
+            **_acting(graph, columns, of.by_hand),
         },
     }
 
@@ -203,11 +221,11 @@ def _sensing(graph: Graph, columns: Columns) -> Data:
     return found
 
 
-def _acting(graph: Graph, columns: Columns) -> Data:
+def _acting(graph: Graph, columns: Columns, by_hand: Sequence[str]) -> Data:
     """The claw, the wheels that turn, lamps and thrusters, each with the column of its command."""
     found: Data = {"claw": None, "steering": None, "lamps": [], "jets": []}
     for number, actuator in enumerate(graph.actuators):
-        kind, column = actuator.kind, columns["commands"].column(number)
+        kind, column = actuator.kind, columns[_acting_group(actuator.name, by_hand)].column(number)
         if kind.is_light:
             found["lamps"].append(column)
         if (push := kind.push(graph.body)) is not None:

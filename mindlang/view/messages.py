@@ -21,6 +21,7 @@ SHOWN_CHARACTERS = 200
 Whole = Annotated[int, Meta(ge=0, le=(1 << 32) - 1)]
 Counted = Annotated[int, Meta(ge=1, le=(1 << 32) - 1)]
 ForkNumber = Annotated[int, Meta(ge=0, le=MAX_FORKS)]
+Seed = Annotated[str, Meta(pattern="^[0-9]{1,20}$")]  # JavaScript has no whole numbers of 64 bits
 Column = tuple[Literal[0, 1], Whole]  # its block, its number there
 
 
@@ -86,20 +87,24 @@ class AskChange(_RunMessage, tag="change", frozen=True):
     lasts: Counted = 1
 
 
+def _refuse_no_seed(seed: str | None) -> None:
+    if seed is not None and int(seed) > MAX_SEED:
+        raise ValueError(f"seed is a whole number from 0 to {MAX_SEED}, as text")
+
+
 class PlayChampion(_PageMessage, tag="champion", frozen=True):
     """Asks to show the champion of a generation of a training instead; `seed` None keeps the world."""
 
     run: Whole
     attempt: Counted
     generation: Counted
-    seed: Annotated[str, Meta(pattern="^[0-9]{1,20}$")] | None = None  # JavaScript has no whole numbers of 64 bits
+    seed: Seed | None = None
 
     fork: ClassVar[int] = 0
 
     def __post_init__(self) -> None:
         """Refuse a seed that no run has."""
-        if self.seed is not None and int(self.seed) > MAX_SEED:
-            raise ValueError(f"seed is a whole number from 0 to {MAX_SEED}, as text")
+        _refuse_no_seed(self.seed)
 
 
 class SayOrder(_PageMessage, tag="order", frozen=True):
@@ -111,7 +116,29 @@ class SayOrder(_PageMessage, tag="order", frozen=True):
     fork: ClassVar[int] = 0
 
 
-Message = AskRows | AskColumns | AskImage | AskRun | AskShares | AskChange | PlayChampion | SayOrder
+class SayHand(_PageMessage, tag="drive", frozen=True):
+    """Says the numbers of all that a hand holds, in their order."""
+
+    values: Annotated[tuple[Annotated[float, Meta(ge=0, le=1)], ...], Meta(min_length=1, max_length=MAX_COLUMNS)]
+
+    fork: ClassVar[int] = 0
+
+
+class PlaySeed(_PageMessage, tag="layout", frozen=True):
+    """Asks to drive in another layout: that of a seed, or one that is drawn."""
+
+    seed: Seed | None = None
+
+    fork: ClassVar[int] = 0
+
+    def __post_init__(self) -> None:
+        """Refuse a seed that no run has."""
+        _refuse_no_seed(self.seed)
+
+
+Message = (
+    AskRows | AskColumns | AskImage | AskRun | AskShares | AskChange | PlayChampion | SayOrder | SayHand | PlaySeed
+)
 _DECODER: msgspec.json.Decoder[Message] = msgspec.json.Decoder(Message)
 
 

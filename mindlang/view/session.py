@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from mindrun.robot.order_client import drivers, say_order
 
 from mindlang.attribution.shares import shares
+from mindlang.compiler.diagnostic import listed
 from mindlang.view import messages
 from mindlang.view.about import order_data
 from mindlang.view.learning import WATCH_SECONDS
@@ -74,6 +75,7 @@ class ViewSession:
             "say": "about",
             "edits": edits,
             "orders": order_data(viewed.flows.graph) if edits and takes_orders else [],
+            "drive": viewed.about["by_hand"] if edits and (takes_orders or viewed.hand) else [],
             "doubles": columns.width(DOUBLE_BLOCK),
             "singles": columns.width(SINGLE_BLOCK),
             "columns": {name: [g.block, g.first, g.count] for name, g in columns.items()},
@@ -103,7 +105,13 @@ class ViewSession:
                 self._run(fork, to)
                 self.changed()  # said also where the run is there already
                 return None
-            case messages.AskChange() | messages.PlayChampion() | messages.SayOrder() if not edits:
+            case (
+                messages.AskChange()
+                | messages.PlayChampion()
+                | messages.SayOrder()
+                | messages.SayHand()
+                | messages.PlaySeed()
+            ) if not edits:
                 raise RefusedError("somebody else may change this run: the first who opened it")
             case messages.PlayChampion():
                 await self._play(message)
@@ -114,8 +122,31 @@ class ViewSession:
             case messages.SayOrder(name=name, value=value):
                 await asyncio.to_thread(say_order, name, value, os.getppid())
                 return None
+            case messages.SayHand(values=values):
+                await self._drive(values)
+                return None
+            case messages.PlaySeed(seed=seed):
+                await self._anew(None if seed is None else int(seed))
+                return None
         viewed = self.forks[message.fork]  # another run may be seen when it is this question's turn
         return await asyncio.get_running_loop().run_in_executor(self._answerer, _computed, viewed, message)
+
+    async def _drive(self, values: tuple[float, ...]) -> None:
+        viewed = self.forks[0]
+        names = [each["name"] for each in viewed.about["by_hand"]]
+        if len(values) != len(names):
+            raise RefusedError(f"the hand holds {listed(names, 'and') or 'nothing'}: that is not {len(values)}")
+        for name, value in zip(names, values, strict=True):
+            if viewed.hand:
+                viewed.hand.say(name, value)
+            else:
+                await asyncio.to_thread(say_order, name, value, os.getppid())
+
+    async def _anew(self, seed: int | None) -> None:
+        anew = self.forks[0].anew
+        if anew is None:
+            raise RefusedError("nobody drives here in a simulated world")
+        self.show(await asyncio.get_running_loop().run_in_executor(self._grower, anew, seed))
 
     async def _play(self, asked: messages.PlayChampion) -> None:
         if self.learning is None or asked.run >= len(self.learning.runs):

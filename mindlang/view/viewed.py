@@ -9,6 +9,7 @@ import numpy as np
 from mindrun.engine.think import Hierarchy
 from mindrun.errors import MindError, reason
 from mindrun.graph.graph import Graph
+from mindrun.robot.hand import Hand
 from mindrun.sim.outside.seen import SeenEpisode, Sent
 from numpy.typing import NDArray
 
@@ -47,7 +48,8 @@ class Viewed:
     `happened` has pairs of a tick and the number of an event, `stops` of a tick and the breakpoint that holds there; in
     the ticks of `begins` the mind was begun anew. `drawing` is of its environment. What `is_live` grows without being
     asked. `forked` makes the same run with a change, and says that in words; RefusedError where that cannot be, None
-    where nothing can be changed. One thread lets it `grow`; others may ask at the same time.
+    where nothing can be changed. The `hand` drives it here, and `anew` makes the run of another seed. One thread lets
+    it `grow`; others may ask at the same time.
     """
 
     def __init__(
@@ -66,6 +68,8 @@ class Viewed:
             graph, mind, lambda ticks: (self.group("readings", ticks), self.group("influence", ticks)), self.begins
         )
         self.forked: Callable[[AskChange], tuple[Viewed, str]] | None = None
+        self.hand: Hand | None = None
+        self.anew: Callable[[int | None], Viewed] | None = None
         self.blocks = RowBlocks()
         self.happened: list[tuple[int, int]] = []
         self.stops: list[tuple[int, str]] = []

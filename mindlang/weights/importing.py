@@ -99,9 +99,10 @@ FLOAT64 = Terms(
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """Weights in a file that fit a skill, and the lesson in which they are tried.
+    """Weights that fit a skill, and the lesson in which they are tried.
 
-    `others` are the weights of all other skills below the lesson's master.
+    They were brought in the file at `path`, of the SHA-256 `file_digest`, or fitted to recordings: then these are the
+    lineage that the lock keeps of them. `others` are the weights of all other skills below the lesson's master.
     """
 
     subject: Subject
@@ -154,10 +155,15 @@ def open_trial(subject: Subject, name: str, path: Path) -> Trial:
     """The trial of a skill's weights in a file; MindError where they do not fit, or nothing would come of them."""
     network = network_of(subject.graph, name)
     lesson = chosen_lessons(subject.graph, None, [name])[-1]
+    others = other_weights(subject, name, lesson)
+    data = read_bytes(path)
+    return trial_of(subject, network, genome_in(path, data, network), lesson, others, path, sha256(data).hexdigest())
+
+
+def other_weights(subject: Subject, name: str, lesson: Lesson) -> dict[str, Weights]:
+    """The weights of all others below a lesson's master; RunError where these lack some, or the skill is frozen."""
     if name not in learners(subject.graph, lesson):
         raise RunError(f"{name} is frozen", command_line("mindc", "edit", "unfreeze", subject.shown, name, "--write"))
-    data = read_bytes(path)
-    genome = genome_in(path, data, network)
     needed = [each for each in owners(reachable(subject.graph, lesson.master)) if each != name]
     others, refusals = trained_weights(subject.graph, subject.lock, needed)
     if refusals:
@@ -166,21 +172,36 @@ def open_trial(subject: Subject, name: str, path: Path) -> Trial:
             f"{name} cannot be tried on {lesson.task} yet: {listed(refusals, 'and')}",
             f"first: {command_line('mindc', 'train', subject.shown, *first)}",
         )
+    return others
+
+
+def trial_of(
+    subject: Subject,
+    network: SkillNetwork,
+    genome: Weights,
+    lesson: Lesson,
+    others: dict[str, Weights],
+    path: Path,
+    sha: str,
+) -> Trial:
+    """The trial of weights in a lesson, beside those of the others that act there."""
+    name = network.skill.name
     policy = Policy(subject.graph, others)
     rollout = rollout_for(policy, lesson.task, lesson.master, (name,), procedures=subject.folder)
-    return Trial(subject, path, sha256(data).hexdigest(), network, genome, lesson, others, rollout)
+    return Trial(subject, path, sha, network, genome, lesson, others, rollout)
 
 
 @dataclass(frozen=True, slots=True)
 class Imported:
-    """The outcome of an import: the engine's deviation, the scores, and whether the lock has the weights now.
+    """The outcome of a trial: the scores, and whether the lock has the weights now.
 
-    `scores` has the old ones beside them, where there were any that fit. `notes` say which skills were taught with
-    those that were there. The lock `is_unchanged` where it had these very weights.
+    `deviation` is the engine's, of weights from another program. `scores` has the old ones beside them, where there
+    were any that fit. `notes` say which skills were taught with those that were there. The lock `is_unchanged` where it
+    had these very weights.
     """
 
     trial: Trial
-    deviation: Deviation
+    deviation: Deviation | None
     score: float
     scores: WeightsComparison | None
     is_kept: bool
@@ -195,7 +216,7 @@ class Imported:
             "file_sha256": trial.file_digest,
             "weights": digest(trial.genome),
             "kept": self.is_kept,
-            **asdict(compared),
+            **(asdict(compared) if compared else {}),
             "task": trial.lesson.task,
             "master": trial.lesson.master,
             "score": self.score,
@@ -210,7 +231,11 @@ def import_weights(trial: Trial, recording: str | None, force: bool) -> Imported
     LockError where the lock cannot be read or written.
     """
     rows = trial.recorded(recording) if recording else trial.readings()
-    compared = engine_deviation(trial.network, trial.genome, rows)
+    return try_weights(trial, force, engine_deviation(trial.network, trial.genome, rows))
+
+
+def try_weights(trial: Trial, force: bool, compared: Deviation | None = None) -> Imported:
+    """Try weights, and write them into the lock, unless what is there does better; with `force` even then."""
     old = genome_there(trial.subject, trial.lesson, (trial.network.skill.name,))
     if old is not None and np.array_equal(old, trial.genome):
         return Imported(trial, compared, *trial.score(None), True, True)
@@ -231,7 +256,7 @@ def _write(trial: Trial, score: float) -> tuple[str, ...]:
         Taught(lesson.task, lesson.master, False, 0, 0, 0, *reached),
         trial.others,
         Worlds(subject.graph, subject.folder).of(lesson),
-        origins={name: (f"{FILE_ORIGIN}{quote(trial.path.name, safe='')}", trial.file_digest)},
+        origins={name: (f"{FILE_ORIGIN}{quote(trial.path.name, safe=';=,')}", trial.file_digest)},
         accepted=True,
     )
     before = status(subject.graph, subject.lock, subject.folder)

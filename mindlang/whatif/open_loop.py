@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 from mindrun.engine.changes import ChangedEngine, ChangeError, in_tick
-from mindrun.engine.engine import Engine
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.graph import Graph
 from mindrun.graph.named_readings import physical
@@ -61,7 +60,7 @@ def compare_recording(path: Path, bundle: Path, request: Request, other: Bundle 
         commands = engine.tick_with(given, in_tick(changes, number))
         return engine.readings, engine.influence, commands
 
-    ours = Engine(mind.policy, mind.procedures, about.master)
+    ours = ChangedEngine(mind.policy, mind.procedures, about.master)
     computed = computed_again(path, about, chain.from_iterable(parts), ours)
     ticks = [
         ((ours.readings, ours.influence, row["commands"]), changed(number, row))

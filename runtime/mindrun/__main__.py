@@ -88,6 +88,8 @@ def run(options: argparse.Namespace) -> int:
     bundle = read_bundle(options.bundle)
     if options.order and (options.readings or options.describe or options.json):
         raise MindError("--order is for a robot that drives: with --readings, --describe or --json none does")
+    if options.drive and (options.readings or options.describe or options.json):
+        raise MindError("--drive is for a robot that drives: with --readings, --describe or --json none does")
     if options.readings:
         with redirect_stdout(sys.stderr):  # what a procedure prints is no command
             engine = Engine(bundle.policy, bundle.procedures, options.master)
@@ -98,7 +100,7 @@ def run(options: argparse.Namespace) -> int:
         standard_streams.detach_standard_error()
         with redirect_stdout(sys.stderr):  # a procedure may print
             return drive(options, bundle)
-    elif options.arm or options.record or options.ticks or options.view or options.order:
+    elif options.arm or options.record or options.ticks or options.view or options.order or options.drive:
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
     elif options.json:
         standard_streams.document(_json(contents(bundle), indent=2))

@@ -170,6 +170,7 @@ REWARDS = [
     ["rewards 0.1 * advance toward ball per tick", "rewards 0.1 * advance toward dock per tick"],
     ["rewards -0.1 * retreat from ball per tick", "rewards -0.1 * retreat from nest per tick"],
     ["rewards -0.4 * change of thrust per tick", "rewards -0.4 * change of thrust beyond 20% over 4 ticks per tick"],
+    ["rewards (count of reach of ball when charge > 0.5) / time at the end", "rewards (sum of moving) at the end"],
     ["rewards -0.01 * claw per tick when charge > 0.5 and moving < 0.9 or holding > 0.5"],
     ["rewards 0.1 * progress of ball toward nest per tick", "rewards 0.1 * progress of coin toward dock per tick"],
     ["rewards 0.1 * advance of coin toward ball per tick", "rewards 0.1 * advance of ball toward dock per tick"],

@@ -205,7 +205,8 @@ def test_the_example_of_an_edit_works_on_the_shipped_files(
 ) -> None:
     for path in (COLLECT, COLLECT.with_name("power.mind"), COLLECT.with_name("like.mind")):
         shutil.copy(path, tmp_path)
-    shutil.copy(HERE / "minds" / "legs.mind", tmp_path)
+    for other in ("legs.mind", "goals.mind"):
+        shutil.copy(HERE / "minds" / other, tmp_path)
     monkeypatch.chdir(tmp_path)
     for each in filter(None, (BEFORE.get(name), name)):
         line = edit(each).example.removeprefix("Example: ").replace("\\\n", "")  # as a shell joins them

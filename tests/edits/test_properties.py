@@ -99,6 +99,7 @@ def anything(draw: st.DrawFn) -> Asked:
         "remove": {"what": st.tuples(st.just("skill"), word) | st.tuples(fact), "from_": skill | st.just("")},
         "rename": {"old": word, "new": word, "noun": st.sampled_from(NOUNS)},
         "replace": {"skill": skill, "new": skill},
+        "rewards": {"task": st.just("Roam") | word},
         "split": {"to": st.sampled_from(["apart.mind", "parts.mind", "../x.mind", "x"]), "names": some},
         "unfold": {},
         "unfreeze": {"skill": skill},

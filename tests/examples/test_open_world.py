@@ -16,6 +16,7 @@ REACHED = {
     "maze": ("Explore", ["success", "mean"], 0.85),
     "micromouse": ("Solve", ["success", "mean"], 0.85),
     "patrol": ("Guard", ["score_mean"], 190.0),
+    "quiz": ("Ask", ["success", "mean"], 0.95),
     "road": ("Drive", ["score_mean"], 130.0),
     "shaping": ("Live", ["by_event", "reach of prey", "mean"], 5.0),
     "soccer": ("Score", ["success", "mean"], 0.9),

@@ -1,10 +1,12 @@
 """Every code has an explanation, every explanation a code, and every example is what it is said to be."""
 
 import ast
+import re
 from pathlib import Path
 
 import pytest
 
+from mindlang.audit import findings
 from mindlang.breakpoints.resolve import breakpoints_of
 from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Diagnostic
@@ -12,7 +14,7 @@ from mindlang.compiler.parse.mistakes import common_mistakes
 from mindlang.compiler.resolve.curricula import SWITCHES
 from mindlang.compiler.source import Source
 from mindlang.explaining.article import Article
-from mindlang.explaining.collection import ERROR, error_articles
+from mindlang.explaining.collection import ERROR, FINDING, error_articles
 from mindlang.explaining.collection import codes as all_codes
 from tests.breakpoints.subjects import subject
 from tests.explain.examples import ENVIRONMENTS, write
@@ -42,7 +44,7 @@ NEEDED = {"no-tick", "no-master", "no-body"}  # in a table of what every mind ne
 # What no small mind shows: files that are not there or too many, locks and edits.
 FILES = {"unreadable", "use-too-deep", "too-many-mistakes", "faulty-procedure"}
 MAPS = {
-    *("not-a-file", "unreadable-map", "ragged-map", "map-too-large", "map-without-floor"),
+    *("not-a-file", "unreadable-map", "unreadable-layouts", "ragged-map", "map-too-large", "map-without-floor"),
     *("unknown-letter", "ambiguous-letter", "placed-twice"),
 }
 SETTINGS = {"unreadable-settings", "unknown-setting", "wrong-setting", "unknown-rule"}
@@ -88,7 +90,9 @@ def test_an_explanation_begins_with_a_short_sentence_and_says_what_to_do(explana
     assert len(explanation.summary) <= 80
     assert explanation.text
     assert explanation.chapter
-    assert bool(explanation.wrong and explanation.right) == (explanation.name not in WITHOUT_EXAMPLES)
+    assert bool(explanation.wrong and explanation.right) == (
+        explanation.name not in WITHOUT_EXAMPLES and explanation.noun != FINDING
+    )
 
 
 def diagnostics(explanation: Article, text: str, folder: Path) -> tuple[Diagnostic, ...]:
@@ -117,6 +121,11 @@ def test_a_right_example_is_right(explanation: Article, text: str, tmp_path: Pat
         (tmp_path / "robot.py").write_text("def avoid():\n    return (0.5,)\n")
     found = diagnostics(explanation, text, tmp_path)
     assert [(each.code, each.message) for each in found] == []
+
+
+def test_every_finding_of_an_audit_is_explained() -> None:
+    told = re.findall(r'_warning\("([^"]+)"', Path(findings.__file__).read_text())
+    assert set(told) == {each.name for each in all_codes().values() if each.noun == FINDING}
 
 
 def test_errors_come_before_lint_rules() -> None:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mindrun.engine.changes import ChangedEngine
 from mindrun.engine.engine import Engine
 from mindrun.errors import WeightsError
 from mindrun.graph.bundle import Bundle, pack, unpack
@@ -92,7 +93,7 @@ def recorded(path: Path, mind: Policy, runs: int) -> list[np.ndarray]:
             clock = Clock()
             sampler = Sampler(SensorWire("north", Scripted(1, script), 0.0, 1.0, max_age=2 * TICK), clock)
             pace = Rate(TICK, clock, clock.sleep)
-            loop = Loop(Engine(mind), ReadingFilter(mind.graph, [sampler]), sent, pace, True, recorder)
+            loop = Loop(ChangedEngine(mind), ReadingFilter(mind.graph, [sampler]), sent, pace, True, recorder)
             pace.begin()
             device = None
             for _ in range(TICKS):
@@ -106,7 +107,7 @@ def test_what_it_remembered_on_a_robot_is_computed_again(tmp_path: Path) -> None
     mind = policy()
     commands = recorded(tmp_path / "day.rec", mind, runs=2)
     back = unpack(pack(Bundle(mind, {})))
-    found = replay(tmp_path / "day.rec", BUNDLE, Engine(back.policy))
+    found = replay(tmp_path / "day.rec", BUNDLE, ChangedEngine(back.policy))
     assert (found.ticks, found.differs) == (2 * TICKS, None)
     assert len(np.unique(np.array(commands), axis=0)) > TICKS / 4
 

@@ -17,7 +17,7 @@ def test_any_source(tmp_path: Path, block: int) -> None:
         check(place, case, source(case))
 
 
-NAMES = ("sort", "soccer", "patrol", "maze", "line", "light", "shaping", "sumo", "tmaze", "stations")
+NAMES = ("sort", "soccer", "patrol", "maze", "line", "light", "shaping", "sumo", "tmaze", "stations", "quiz")
 OPEN_WORLD = [EXAMPLES / name / f"{name}.mind" for name in NAMES]
 
 

@@ -157,6 +157,7 @@ task Fetch in arena size 80
   rewards 3 on reach of ball within 300 ticks of leave of bin
   rewards -0.01 * distance of ball to bin per tick
   rewards 1 on visit of patch size 5
+  rewards (count of collision when time < 30) - (longest when moving > 0.5) * (sum of forward) at the end
   rewards 0.1 * progress toward ball per tick
   rewards 0.1 * advance toward bin per tick
   rewards -0.1 * retreat from bin per tick

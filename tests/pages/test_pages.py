@@ -24,8 +24,8 @@ RUN = [
     if page not in MADE
     and any(isinstance(step, Command | Program) for step in steps((ROOT / page).read_text(encoding="utf-8")))
 ]
-# They take more than ten seconds of a core, are not read first, and what they do is tested in tests/run as well.
-SLOW = {"docs/tour.md", "docs/breakpoints.md", "docs/lifelong.md", "docs/logs.md"}
+# They take more than ten seconds of a core, are not read first, and other tests, as those of tests/run, do as they do.
+SLOW = {"docs/tour.md", "docs/breakpoints.md", "docs/lifelong.md", "docs/logs.md", "docs/propose.md"}
 PICTURE_BYTES = 180_000
 LEFT = {"docs/tutorial.md": "rover"}  # what a page ends with, as an example
 SAME_PIXELS = 2.0  # mean difference of two pictures, of 255, below which only a library draws its letters otherwise

@@ -95,12 +95,15 @@ def test_weights_are_put_beside_a_graph_in_few_places() -> None:
     """Where the graph is `arrange`d for them, they were taught in its order, or there are none; others take both."""
     places = {
         "mindlang/lock/status.py": "arranged here",
+        "mindlang/run/setup.py": "the arranged ones, and zeros beside them",
         "mindlang/editing/verify.py": "arranged there, before and after an edit",
+        "mindlang/attribution/mixture.py": "those of a subject, which is arranged",
         "mindlang/weights/importing.py": "a lesson of a subject, which is arranged",
         "mindlang/training/taught_runs.py": "those of a run, if its mind has them in the order of the subject",
         "mindlang/training/teaching.py": "a run has those of its subject, which is arranged",
         "mindlang/training/retention.py": "a lesson of a subject, which is arranged",
         "mindlang/training/remarks.py": "a run has those of its subject, which is arranged",
+        "mindlang/propose/trial.py": "arranged there, for each candidate",
         "mindlang/view/learning.py": "a run has those of its mind, which is arranged",
         "runtime/mindrun/graph/bundle.py": "a bundle has both, sealed",
         "runtime/mindrun/sim/commanded_lanes.py": "none",

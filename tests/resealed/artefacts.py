@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 from mindrun.cli.report import report
-from mindrun.engine.engine import Engine
+from mindrun.engine.changes import ChangedEngine
 from mindrun.files.archive import write_archive
 from mindrun.files.npy import to_npy
 from mindrun.graph.bundle import pack, unpack
@@ -101,7 +101,7 @@ def use_bundle(folder: Path) -> object:
     bundle = unpack((folder / "x.bundle").read_bytes())
     json.dumps(contents(bundle), allow_nan=False)
     assert all(line.isprintable() for line in describe(bundle).splitlines())
-    engine = Engine(bundle.policy, bundle.procedures)
+    engine = ChangedEngine(bundle.policy, bundle.procedures)
     for reading in (0.0, 0.5, 1.0, np.nan):
         commands = engine.tick(np.full(bundle.graph.width, reading))
         assert ((commands >= 0) & (commands <= 1)).all()
@@ -149,7 +149,7 @@ def recorded() -> tuple[Graph, About, bytes]:
     with TemporaryDirectory() as folder:
         path = Path(folder) / "day.rec"
         with Recorder(path, about) as recorder:
-            engine = Engine(Policy(graph, {}))
+            engine = ChangedEngine(Policy(graph, {}))
             for tick in range(5):
                 readings = np.full(graph.width, tick / 5, np.float32)
                 commands = engine.tick(readings)
@@ -187,7 +187,7 @@ def tampered_recording(rng: Random) -> dict[str, bytes]:
 def use_recording(folder: Path) -> object:
     """Compute it again, and hold it against its source."""
     graph, path = recorded()[0], folder / "x.rec"
-    return replay(path, BUNDLE, Engine(Policy(graph, {}))), report(path, BUNDLE, graph)
+    return replay(path, BUNDLE, ChangedEngine(Policy(graph, {}))), report(path, BUNDLE, graph)
 
 
 # Locks and the weights that they name

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from mindrun.driver import DeviceError
-from mindrun.engine.engine import Engine
+from mindrun.engine.changes import ChangedEngine
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.graph.wiring import SensorWire
@@ -166,6 +166,8 @@ def robot(kind: str, script: Sequence[Any], on_fault: str = "neutral", **wire: A
     times = {"rate": 1 / TICK, "max_age": 1.5 * TICK, "hold": 2 * TICK}
     wired = SensorWire("sense", driver, 0.0, 1.0, on_fault=on_fault, blank=1.0, **times, **wire)
     sampler, sent = Sampler(wired, clock), Sent()
-    loop = Loop(Engine(Policy(of, {})), ReadingFilter(of, [sampler]), sent, Rate(TICK, clock, clock.sleep), armed=True)
+    loop = Loop(
+        ChangedEngine(Policy(of, {})), ReadingFilter(of, [sampler]), sent, Rate(TICK, clock, clock.sleep), armed=True
+    )
     loop.pace.begin()
     return Robot(loop, sampler, sent, driver)

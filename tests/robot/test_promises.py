@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from mindrun.engine.engine import Engine
+from mindrun.engine.changes import ChangedEngine
 from mindrun.engine.promises import PromiseWatcher
 from mindrun.graph.graph import Promise
 from mindrun.graph.policy import Policy
@@ -32,7 +32,7 @@ def test_a_broken_promise_is_told_once_until_it_held(
     of, clock, said = mind(go), Clock(), list[str]()
     sampler = Sampler(SensorWire("r0", Scripted(1, [[0.9], [0.1], [0.2], [0.8], [0.3]]), 0.0, 1.0), clock)
     senses, pace = ReadingFilter(of, [sampler]), Rate(TICK, clock, clock.sleep)
-    loop = Loop(Engine(Policy(of, {})), senses, Sent(), pace, True, tell=said.append)
+    loop = Loop(ChangedEngine(Policy(of, {})), senses, Sent(), pace, True, tell=said.append)
     loop.promises, loop.stops_on_broken = PromiseWatcher(of, "Go"), stops
     loop.pace.begin()
     device, done = None, []

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.cli.doctor import wired
-from mindrun.engine.engine import Engine
+from mindrun.engine.changes import ChangedEngine
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.describe import describe
 from mindrun.graph.graph import Graph
@@ -64,7 +64,7 @@ def servo_of(graph: Graph, **of_pan: float) -> ReckonedServo:
 def robot(graph: Graph, servo: ReckonedServo) -> Loop:
     clock = Clock()
     pace = Rate(graph.tick, clock, clock.sleep)
-    loop = Loop(Engine(Policy(graph, {})), ReadingFilter(graph, [servo]), Sent(), pace, True, servos=[servo])
+    loop = Loop(ChangedEngine(Policy(graph, {})), ReadingFilter(graph, [servo]), Sent(), pace, True, servos=[servo])
     pace.begin()
     return loop
 
@@ -72,7 +72,11 @@ def robot(graph: Graph, servo: ReckonedServo) -> Loop:
 @pytest.mark.parametrize("says", SAYS)
 def test_a_robot_reckons_what_the_world_reads_to_the_bit(says: str) -> None:
     graph = compile_text(MIND.format(says=says))
-    loop, world, engine = robot(graph, servo_of(graph)), CommandedWorld(graph, "Look", 1), Engine(Policy(graph, {}))
+    loop, world, engine = (
+        robot(graph, servo_of(graph)),
+        CommandedWorld(graph, "Look", 1),
+        ChangedEngine(Policy(graph, {})),
+    )
     seen = []
     for _ in range(50):
         loop.tick()

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.cli.report import report
-from mindrun.engine.engine import Engine
+from mindrun.engine.changes import ChangedEngine
 from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import CHECKSUM_FIELD, _sealed, by_guardian
 from mindrun.graph.wiring import SensorWire
@@ -46,7 +46,12 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     sampler = Sampler(SensorWire("sense", Scripted(3, script), 0.0, 1.0, max_age=2 * TICK), clock)
     with Recorder(path, About.of(of, BUNDLE, of.master, ("sense",))) as recorder:
         loop = Loop(
-            Engine(Policy(of, {})), ReadingFilter(of, [sampler]), Sent(), Rate(TICK, clock, clock.sleep), True, recorder
+            ChangedEngine(Policy(of, {})),
+            ReadingFilter(of, [sampler]),
+            Sent(),
+            Rate(TICK, clock, clock.sleep),
+            True,
+            recorder,
         )
         loop.pace.begin()
         device = None
@@ -76,23 +81,23 @@ def test_what_is_not_wired_is_no_number(tmp_path: Path) -> None:
     sampler.latest = sampler.measured_once()
     with Recorder(path, About.of(of, BUNDLE, of.master, ("r0",))) as recorder:
         pace = Rate(TICK, clock, clock.sleep)
-        loop = Loop(Engine(Policy(of, {})), ReadingFilter(of, [sampler]), Sent(), pace, True, recorder)
+        loop = Loop(ChangedEngine(Policy(of, {})), ReadingFilter(of, [sampler]), Sent(), pace, True, recorder)
         loop.pace.begin()
         loop.tick()
     _, parts = read(path)
     assert np.array_equal(np.concatenate([*parts])["readings"], [[0.25, np.nan]], equal_nan=True)
-    assert replay(path, BUNDLE, Engine(Policy(of, {}))).differs is None
+    assert replay(path, BUNDLE, ChangedEngine(Policy(of, {}))).differs is None
 
 
 def test_it_is_computed_again_bit_for_bit(day: Path) -> None:
-    found = replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {})))
+    found = replay(day, BUNDLE, ChangedEngine(Policy(graph("range_finder"), {})))
     assert (found.ticks, found.differs) == (TICKS, None)
 
 
 def test_a_recording_that_says_its_first_tick_again_was_begun_anew_there(day: Path) -> None:
     data = day.read_bytes()
     day.write_bytes(data + data[data.index(b"\n") + 1 :])
-    found = replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {})))
+    found = replay(day, BUNDLE, ChangedEngine(Policy(graph("range_finder"), {})))
     assert (found.ticks, found.differs) == (2 * TICKS, None)
 
 
@@ -104,7 +109,7 @@ def test_the_first_tick_that_differs_is_said(day: Path) -> None:
     row["commands"][0, 1] = np.nextafter(row["commands"][0, 1], np.float32(2))
     data[offset : offset + about.row.itemsize] = resealed(row)
     day.write_bytes(data)
-    found = replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {})))
+    found = replay(day, BUNDLE, ChangedEngine(Policy(graph("range_finder"), {})))
     assert found.ticks == 120
     assert found.differs
     assert found.differs[0] == 120
@@ -119,7 +124,7 @@ def test_influence_that_differs_is_said_where_the_commands_do_not(day: Path) -> 
     row["influence"][0, 0] = 0.5
     data[offset : offset + about.row.itemsize] = resealed(row)
     day.write_bytes(data)
-    found = replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {})))
+    found = replay(day, BUNDLE, ChangedEngine(Policy(graph("range_finder"), {})))
     assert (found.ticks, found.differs) == (7, (7, f"{about.skills[0]} is 1 and was 0.5"))
 
 
@@ -127,7 +132,7 @@ def test_a_recording_without_a_tick_proves_nothing(day: Path) -> None:
     data = day.read_bytes()
     day.write_bytes(data[: data.index(b"\n") + 1])
     with pytest.raises(RecordingError, match="has no tick in it"):
-        replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {})))
+        replay(day, BUNDLE, ChangedEngine(Policy(graph("range_finder"), {})))
 
 
 def resealed(row: np.ndarray) -> bytes:
@@ -148,13 +153,13 @@ def saying(line: bytes, **said: object) -> bytes:
 
 def test_another_bundle_is_refused(day: Path) -> None:
     with pytest.raises(RecordingError, match="another bundle"):
-        replay(day, "cd" * 32, Engine(Policy(graph("range_finder"), {})))
+        replay(day, "cd" * 32, ChangedEngine(Policy(graph("range_finder"), {})))
 
 
 @pytest.mark.parametrize("share", [0.01, 0.5, 0.99])
 def test_a_row_that_was_cut_off_is_no_row(day: Path, share: float) -> None:
     day.write_bytes(day.read_bytes()[: -max(1, int(share * read(day)[0].row.itemsize))])
-    assert replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {}))).ticks == TICKS - 1
+    assert replay(day, BUNDLE, ChangedEngine(Policy(graph("range_finder"), {}))).ticks == TICKS - 1
 
 
 def test_a_damaged_row_is_said(day: Path) -> None:
@@ -162,7 +167,7 @@ def test_a_damaged_row_is_said(day: Path) -> None:
     data[-read(day)[0].row.itemsize - 9] ^= 1
     day.write_bytes(data)
     with pytest.raises(RecordingError, match=f"is damaged at row {TICKS - 2}"):
-        replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {})))
+        replay(day, BUNDLE, ChangedEngine(Policy(graph("range_finder"), {})))
 
 
 @pytest.mark.parametrize(
@@ -216,7 +221,10 @@ def test_what_a_first_line_cannot_say(day: Path, name: str, value: object) -> No
 def test_other_columns_than_those_of_the_bundle_are_refused(day: Path, name: str, value: object) -> None:
     line, _, rows = day.read_bytes().partition(b"\n")
     day.write_bytes(saying(line, **{name: value}) + rows)
-    for refuses in (lambda: replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {}))), lambda: _reported(day)):
+    for refuses in (
+        lambda: replay(day, BUNDLE, ChangedEngine(Policy(graph("range_finder"), {}))),
+        lambda: _reported(day),
+    ):
         with pytest.raises(RecordingError, match="other columns"):
             refuses()
 
@@ -296,7 +304,7 @@ def test_it_is_read_in_parts(day: Path, monkeypatch: pytest.MonkeyPatch, read_by
     data[-whole.itemsize - 9] ^= 1
     day.write_bytes(data)
     with pytest.raises(RecordingError, match=f"is damaged at row {TICKS - 2}"):
-        replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {})))
+        replay(day, BUNDLE, ChangedEngine(Policy(graph("range_finder"), {})))
 
 
 def test_it_is_brought_to_the_disk_beside_the_loop_and_in_the_end(day: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from mindrun.engine.engine import Engine
+from mindrun.engine.changes import ChangedEngine
 from mindrun.graph.bundle import Bundle, digest
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
@@ -59,7 +59,7 @@ def test_any_run_is_read_again_and_computed_again(graph: Graph, scale: float, se
         rows = np.concatenate([*parts])
         assert about.world
         assert (about.world.task, about.world.seed) == ("World", seed)
-        assert replay(path, about.bundle, Engine(policy, PROCEDURES)).differs is None
+        assert replay(path, about.bundle, ChangedEngine(policy, PROCEDURES)).differs is None
     assert np.array_equal(rows["sent"], run.commands)
     assert_same(run_of(about, rows, Bundle(policy, {}), PROCEDURES), run)
 

@@ -222,6 +222,7 @@ def test_every_edit_is_proposed_somewhere_and_comes_to_what_compiles(tmp_path: P
     text += "skill Still is rule\n  drives claw at 0\n  stays frozen\n\nskill Twin is like Go\n"
     text += "sensor beatN is clock period 2 s where N is 7 to 9\n"
     text += "".join(f"sensor pulse{number} is clock period 2 s\n" for number in range(3))
+    text += "task Fetch in arena size 40\n  contains ball is item\n  lasts 60 s\n  wants 2 reach of ball\n"
     workspace, found = everywhere(path, text)
     assert {each.edit for each in found} == set(names()) - {"rename"}
     for each in found:

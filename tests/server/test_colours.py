@@ -30,7 +30,8 @@ TOKENS = {
     "ENVIRONMENT": "string.unquoted",
     **dict.fromkeys(("COMPUTED", "NUMBERED", "SEVERAL", "ORDERED", "BROKEN", "GYMNASIUM"), KIND),
     **dict.fromkeys(("FROM", "TO", "BY", "ON", "OF", "WITHIN", "FACING", "AT", "ALONG"), KEY),
-    **dict.fromkeys(("EXTREME", "AND", "OR", "TICK", "LEVEL"), WORD),
+    **dict.fromkeys(("EXTREME", "AND", "OR", "TICK", "LEVEL", "COUNT", "LONGEST", "SUM"), WORD),
+    **dict.fromkeys(("FINAL", "SOON", "HOW"), WORD),
     **dict.fromkeys(("SIGN", "SPACED", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
 }
 NAMES = {  # by the rule in which they stand, and there by their place among the names
@@ -82,7 +83,7 @@ def _tokens(tree: Tree[Token], event: str) -> Iterator[tuple[Token, str]]:
     names = 0
     for child in tree.children:
         if isinstance(child, Tree):
-            is_event = tree.data in ("event", "within") and child.data == "call"
+            is_event = tree.data in ("event", "within", "wants") and child.data == "call"
             yield from _tokens(child, "event" if is_event else "")
         elif child.type in ("NAME", "TITLE"):
             yield child, _of_name(tree, child, names, event)
@@ -114,6 +115,18 @@ teaches A on B under C+D for 1500 generations mutated 20% from scratch patience 
 sensor when_near is range_finder at -90 +45 90 deg range 12 dead_zone 1%
 memory on is cell decay 1/3
 lasts 100 s
+wants 10 delivery of red to nest within 400 s
+wants visit of patch size 4 within 5 s of reach of red within long
+then wants collision
+avoids 3 collision
+avoids battery < 5%
+keeps near > 10% and ahead < limit after 5 s
+keeps near > far
+then keeps near > 0.5 for 2 s
+prefers soon
+prefers little change of thrust beyond 20% over 10 ticks
+rewards 100 / 3 * (least of (count of reach of red when time <= 900) 4) / 4 at the end when (count of collision) < 3
+rewards (longest when a > 1/2 and b < 2) * (count when near > 1%) - (sum of forward when near > 1) at the end
 tick 1/60 s
 stays frozen
 chooses one

@@ -8,7 +8,7 @@ import pymunk
 from mindrun.kinds.actuators.actuator import Gripper, Motor, Servo, Steering, Thruster, Wheel
 from mindrun.kinds.bodies.body import Car, Disc, Holonomic
 from mindrun.kinds.events.event import Collision, Delivery, Exhaustion, Leave, Reach, Success, Visit
-from mindrun.kinds.measures.measure import Advance, Apart, CommandChange, Forward, Progress, Retreat
+from mindrun.kinds.measures.measure import Advance, Apart, CommandChange, Forward, Progress, Retreat, Time
 from mindrun.kinds.scenes.scene import Arena
 from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.sensors.compass import Compass, Direction
@@ -58,6 +58,7 @@ class PlainWorld:
         self.counts = [0] * len(task.events)
         self.visited = [{self.patch(event)} for event in task.events]
         self.lines = [np.float64(0)] * len(task.rewards)
+        self.tallies, self.stretches = [0.0] * len(task.tallies), [0.0] * len(task.tallies)
         self.history = {}
         self.body = PlainBody(self)
         self.drawn = run.drawn[len(run.drawn) - len(task.draws) :].tolist()
@@ -373,7 +374,7 @@ class PlainWorld:
         closed = {name: self.closed([i for i, its in enumerate(names) if its == name]) for name in names}
         found = []
         for i, measure in enumerate(self.task.measures):
-            if getattr(measure, "to", "") or (measure.thing and measure.of):
+            if measure.other:
                 now = self.between(measure)
                 nearer = now if isinstance(measure, Apart) else self.apart[i] - now if now < math.inf else 0.0
                 nearer = max(0.0, nearer) if isinstance(measure, Advance) else nearer
@@ -381,6 +382,11 @@ class PlainWorld:
                 found.append(nearer if now < math.inf else 0.0)
                 continue
             match measure:
+                case Time():
+                    found.append(self.t + 1.0)
+                case Apart(to=of):
+                    there = [self.away(self.places[j]) for j, its in enumerate(names) if its == of]
+                    found.append(min((far for far in there if not math.isnan(far)), default=0.0))
                 case Forward():
                     dx, dy = self.x - self.was[0], self.y - self.was[1]
                     found.append(float(dx * cosine(self.angle) + dy * sine(self.angle) > 1e-6))
@@ -419,6 +425,7 @@ class PlainWorld:
         """The number of the end that has come, −1 for none; where that is a success, its event has happened."""
         self.found = self.measured()
         self.counts = [count + it for count, it in zip(self.counts, happened, strict=True)]
+        self.tally(happened, readings)
         for number, end in enumerate(self.task.ends):
             if end.when is None:
                 met = happened[end.event] and self.counts[end.event] >= end.times
@@ -432,6 +439,18 @@ class PlainWorld:
                 return number
         return -1
 
+    def tally(self, happened, readings):
+        """Add what happened to each tally, where its condition holds."""
+        for i, tally in enumerate(self.task.tallies):
+            times = 1 if tally.event is None else happened[tally.event]
+            times = times if tally.value is None else self.value(tally.value, readings, self.found, 0)
+            if tally.when is not None and not self.value(tally.when, readings, self.found, 0) > 0:
+                self.stretches[i] = 0.0
+                continue
+            self.stretches[i] += times
+            longest = max(self.tallies[i], self.stretches[i])
+            self.tallies[i] = longest if tally.longest else self.tallies[i] + times
+
     def reward(self, happened, readings):
         """Add what each line pays."""
         found = self.found
@@ -441,7 +460,10 @@ class PlainWorld:
             rows = range(line.each[0], sum(line.each)) if line.each else [0]
             for row in rows:
                 value = self.value(line.amount, readings, found, row)
-                if line.when is None or self.value(line.when, readings, found, row) > 0:
+                is_paid = line.when is None or self.value(line.when, readings, found, row) > 0
+                if is_paid and line.last:
+                    self.lines[i] = np.float64(value)
+                elif is_paid:
                     self.lines[i] = self.lines[i] + value * (1 if line.on is None else happened[line.on])
         self.t += 1
 
@@ -452,6 +474,7 @@ class PlainWorld:
             "each": lambda i: ("reading", row),
             "command": lambda i: ("number", self.commands[i]),
             "drawn": lambda i: ("number", self.drawn[i]),
+            "tally": lambda i: ("number", self.tallies[i]),
         }
         return postfix([words.get(word, lambda i, word=word: (word, i))(i) for word, i in program], readings)
 

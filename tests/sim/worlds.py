@@ -7,13 +7,26 @@ from typing import Any, get_args
 
 from hypothesis import strategies as st
 from mindrun.graph.draws import Draw, ends_of, intervals_of
-from mindrun.graph.graph import Actuator, End, Failure, Graph, Lesson, Program, Reward, Start, Task, Thing, Variation
+from mindrun.graph.graph import (
+    Actuator,
+    End,
+    Failure,
+    Graph,
+    Lesson,
+    Program,
+    Reward,
+    Start,
+    Tally,
+    Task,
+    Thing,
+    Variation,
+)
 from mindrun.graph.weights import genes
 from mindrun.kinds.actuators.actuator import Gripper, Lamp, Motor, Servo, Steering, Thruster, Wheel
 from mindrun.kinds.bodies.body import Box, Car, Disc, Holonomic
 from mindrun.kinds.events.event import Collision, Delivery, EventKind, Exhaustion, Leave, Reach, Success, Visit, Within
 from mindrun.kinds.learners import Learner
-from mindrun.kinds.measures.measure import Advance, Apart, CommandChange, Forward, MeasureKind, Progress, Retreat
+from mindrun.kinds.measures.measure import Advance, Apart, CommandChange, Forward, MeasureKind, Progress, Retreat, Time
 from mindrun.kinds.registry import arguments, kinds
 from mindrun.kinds.scenes.scene import Arena, Plain, SceneKind
 from mindrun.kinds.things.loose import Ball, LooseBox
@@ -123,12 +136,14 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
     things = draw(_things(scene, draws))
     graph = draw(_about_several(graph, things))
     measures, events = draw(_measures(things)), draw(_events(scene, things))
-    rewards = tuple(
-        draw(_rewards(graph, len(measures), len(events), len(draws))) for _ in range(draw(st.integers(1, 4)))
+    tallies = tuple(
+        draw(_tallies(graph, len(measures), events, len(draws), earlier)) for earlier in range(draw(st.integers(0, 3)))
     )
+    seen = len(measures), len(draws), len(tallies)
+    rewards = tuple(draw(_rewards(graph, len(events), *seen)) for _ in range(draw(st.integers(1, 4))))
     some = st.lists(st.sampled_from(range(len(events))), unique=True, max_size=3) if events else st.just([])
     ticks = draw(st.integers(1, most))
-    ends = tuple(draw(st.lists(_ends(graph, measures, events, things, len(draws)), max_size=3)))
+    ends = tuple(draw(st.lists(_ends(graph, events, things, *seen), max_size=3)))
     task = Task(
         "World",
         scene,
@@ -141,6 +156,7 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
         tuple(draw(some)),
         draw(st.sampled_from([Start(), Start(), Start((2.0, -1.0)), Start(None, 1.0), Start((0.0, 0.5), -3.0)])),
         draws=draws,
+        tallies=tallies,
     )
     task = replace(task, varies=draw(_variations(graph, task)), fails=draw(_failures(graph)))
     return replace(graph, tasks=(task,), lessons=tuple(draw(_lessons(graph))))
@@ -332,9 +348,9 @@ def _counted(draw: st.DrawFn, thing: Thing, draws: tuple[Draw, ...]) -> Thing:
 @st.composite
 def _measures(draw: st.DrawFn, things: tuple[Thing, ...]) -> tuple[MeasureKind, ...]:
     named = [thing.name for thing in things if not thing.kind.is_obstacle]
-    measures: list[MeasureKind] = [Forward(), CommandChange("thrust", 0.2, 4), CommandChange("thrust", 0.0, 1)]
+    measures: list[MeasureKind] = [Forward(), CommandChange("thrust", 0.2, 4), CommandChange("thrust", 0.0, 1), Time()]
     for name in named:
-        measures += [Progress(name), Advance(name), Retreat(name)]
+        measures += [Progress(name), Advance(name), Retreat(name), Apart(name)]
     between = [kind(to, of) for kind in (Progress, Advance, Retreat, Apart) for to, of in permutations(named, 2)]
     some = draw(st.lists(st.sampled_from(measures), unique=True, min_size=1, max_size=3))
     return (*some, *(draw(st.lists(st.sampled_from(between), unique=True, max_size=2)) if between else ()))
@@ -366,10 +382,11 @@ def _events(draw: st.DrawFn, scene: SceneKind, things: tuple[Thing, ...]) -> tup
 def _ends(
     draw: st.DrawFn,
     graph: Graph,
-    measures: tuple[MeasureKind, ...],
     events: tuple[EventKind, ...],
     things: tuple[Thing, ...],
+    measures: int,
     draws: int,
+    tallies: int,
 ) -> End:
     """An event, the first time or later, or a condition; a success or not, or what opens something."""
     happening = [number for number, event in enumerate(events) if not event.is_of_success]
@@ -377,24 +394,39 @@ def _ends(
     succeeds = not opens and draw(st.booleans())
     if happening and draw(st.booleans()):
         return End(draw(st.sampled_from(happening)), draw(st.integers(1, 3)), None, succeeds, opens=opens)
-    programs = _programs(graph.width, len(measures), len(graph.actuators), False, draws)
+    programs = _programs(graph.width, measures, len(graph.actuators), False, draws, tallies)
     return End(None, 1, draw(conditions(programs)), succeeds, "it is so", opens)
 
 
 @st.composite
-def _rewards(draw: st.DrawFn, graph: Graph, measures: int, events: int, draws: int) -> Reward:
+def _tallies(
+    draw: st.DrawFn, graph: Graph, measures: int, events: tuple[EventKind, ...], draws: int, earlier: int
+) -> Tally:
+    """How often an event has happened, or a condition held, or for how long, perhaps while a tally before it is so."""
+    happening = [number for number, event in enumerate(events) if not event.is_of_success]
+    programs = _programs(graph.width, measures, len(graph.actuators), False, draws, earlier)
+    event = draw(st.sampled_from(happening)) if happening and draw(st.booleans()) else None
+    when = draw(conditions(programs)) if event is None or draw(st.booleans()) else None
+    value = draw(programs) if event is None and draw(st.booleans()) else None
+    return Tally(event, when, event is None and value is None and draw(st.booleans()), value)
+
+
+@st.composite
+def _rewards(draw: st.DrawFn, graph: Graph, events: int, measures: int, draws: int, tallies: int) -> Reward:
     """An amount per tick or on an event, for each reading of a sensor or once, always or when a condition holds."""
     each = None
     if graph.sensors and draw(st.integers(0, 3)) == 0:
         sensor = draw(st.sampled_from(graph.sensors))
         each = sensor.start, sensor.width
-    programs = _programs(graph.width, measures, len(graph.actuators), each is not None, draws)
+    programs = _programs(graph.width, measures, len(graph.actuators), each is not None, draws, tallies)
     on = draw(st.integers(0, events - 1)) if events and draw(st.booleans()) else None
     when = draw(conditions(programs)) if draw(st.booleans()) else None
-    return Reward("", draw(programs), on, each, when)
+    return Reward("", draw(programs), on, each, when, each is None and draw(st.booleans()))
 
 
-def _programs(readings: int, measures: int, commands: int, in_loop: bool, draws: int) -> st.SearchStrategy[Program]:
+def _programs(
+    readings: int, measures: int, commands: int, in_loop: bool, draws: int, tallies: int
+) -> st.SearchStrategy[Program]:
     leaves = [st.sampled_from([0.0, 0.5, 1.0, -2.0]).map(lambda x: (("number", x),))]
     leaves.append(st.integers(0, measures - 1).map(lambda i: (("measure", i),)))
     leaves.append(st.integers(0, commands - 1).map(lambda i: (("command", i),)))
@@ -402,6 +434,8 @@ def _programs(readings: int, measures: int, commands: int, in_loop: bool, draws:
         leaves.append(st.integers(0, readings - 1).map(lambda i: (("reading", i),)))
     if draws:
         leaves.append(st.integers(0, draws - 1).map(lambda i: (("drawn", i),)))
+    if tallies:
+        leaves.append(st.integers(0, tallies - 1).map(lambda i: (("tally", i),)))
     if in_loop:
         leaves.append(st.just((("each", 0),)))
     return combined(st.one_of(leaves), 4)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.graph.graph import Need
+from mindrun.graph.graph import HardLayouts, Need
 from mindrun.kinds.events.event import Collision
 from mindrun.train.attempt import (
     REEVALUATED_CANDIDATES,
@@ -30,7 +30,7 @@ from mindrun.train.lesson_state import (
     rung_at,
 )
 from mindrun.train.population import Population
-from mindrun.train.scoring import Purpose, layouts, lowest_mean, mark
+from mindrun.train.scoring import Purpose, layouts, lowest_mean, mark, with_hard
 
 from tests.train.climbing import LENGTH, Faulty, Flat, Results, Sphere, lesson
 
@@ -54,6 +54,26 @@ def test_a_lesson_teaches() -> None:
     assert [record.generation for record in records] == list(range(1, 101))
     assert state.reevaluated > -2.0
     assert records[0].best < records[-1].best
+
+
+@given(st.integers(1, 12), st.floats(0.001, 1), st.integers(0, 5))
+def test_a_share_of_the_layouts_are_hard_and_the_others_are_what_they_were(
+    count: int, share: float, generation: int
+) -> None:
+    usual, hard = layouts(1, 2, generation, count), HardLayouts(share, ("3", "5", "7", str(2**64 - 1)))
+    seeds = with_hard(usual, hard, 1, 2, generation)
+    replaced = int((seeds != usual).sum())
+    assert int(share * count) <= replaced <= min(count, int(share * count) + 1)
+    assert {*map(str, seeds[:replaced])} <= {*hard.seeds}
+    assert (seeds[replaced:] == usual[replaced:]).all()
+    assert (with_hard(usual, None, 1, 2, generation) == usual).all()
+
+
+def test_hard_layouts_come_as_often_as_their_share_says() -> None:
+    hard = HardLayouts(0.25, ("3", "5"))
+    came = [np.isin(with_hard(layouts(1, 0, number, 2), hard, 1, 0, number), [3, 5]).sum() for number in range(400)]
+    assert {*came} == {0, 1}
+    assert 160 < sum(came) < 240
 
 
 def test_runs_are_short_first_and_whole_in_the_end_with_a_third_of_the_ticks_for_each_length() -> None:

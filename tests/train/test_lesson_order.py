@@ -3,15 +3,17 @@
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from benchmarks.shapes import HEAD
 from mindlang.compiler.compile import compile_source, load
 from mindlang.compiler.source import Source
 from mindlang.lock.status import Trained, needed_skills
 from mindlang.training.lesson_choice import chosen_lessons
 from mindlang.training.subject import open_subject
 from tests.calling import Call
+from tests.draws import cases
 from tests.edits.taught import MIND, statuses, teach, write_mind
 
 LESSONS = tuple(f"  teaches {skill} on Roam for 3 generations\n" for skill in ("Go", "Avoid", "Drive"))
@@ -95,3 +97,54 @@ def test_lessons_come_after_what_they_need(lessons: list[str]) -> None:
         taught = [each.generations for each in graph.lessons if each.skill == skill]
         assert said == taught, "what overtakes a lesson of its own skill would leave it untaught"
     assert chosen_lessons(graph, None, ("Drive", "Go")) == tuple(x for x in graph.lessons if x.skill != "Avoid")
+
+
+@st.composite
+def curricula(draw: st.DrawFn) -> str:
+    """A mind of six skills, some above others, and lessons of them in any order, circles among them."""
+    names, text = "ABCDEF", HEAD.replace("master Go", "master A")
+    below: dict[str, str] = {}
+    for place, name in reversed([*enumerate(names)]):
+        chosen = draw(st.sets(st.sampled_from(names[place + 1 :]), max_size=2)) if place < 5 else set()
+        below[name] = "".join(sorted(chosen))
+        edges = "".join(f"  influences {each}\n" for each in below[name])
+        text += f"skill {name} is mlp\n  reads eye\n  drives left\n{edges}"
+    text += FAR + "curriculum C is genetic\n"
+    for number in range(draw(st.integers(1, 12))):
+        name = draw(st.sampled_from(names))
+        others = [each for each in names if not below[name] and not below[each] and each != name]
+        masters = [each for each in names if name in below[each]]
+        under = f" under {draw(st.sampled_from(masters))}" if masters and draw(st.booleans()) else ""
+        origin = f" from {draw(st.sampled_from(others))}" if others and draw(st.booleans()) else ""
+        together = " with subskills" if draw(st.integers(0, 3)) == 0 else ""
+        text += f"  teaches {name} on Far{under} for {number + 1} generations{origin}{together}\n"
+    return text
+
+
+@given(curricula())
+@settings(max_examples=cases(200))
+def test_the_order_is_that_of_the_first_lesson_that_waits_for_none(text: str) -> None:
+    """Said the slow way: what a lesson waits for is asked anew of all that are left."""
+    mind = compile_source(Source("c.mind", text)).mind
+    assert mind, text
+    edges = {skill.name: {edge.target for edge in skill.edges if edge.to == "skill"} for skill in mind.skills}
+
+    def below(name: str) -> set[str]:
+        return {name}.union(*map(below, edges[name]))
+
+    left = sorted(mind.lessons, key=lambda lesson: lesson.generations)
+    taught = {each.generations: below(each.skill) if each.with_subskills else {each.skill} for each in left}
+    acting = {each.generations: below(each.master) | {each.starts_from} for each in left}
+    known, order = set[str](), []
+    while left:
+        for place, lesson in enumerate(left):
+            needs = acting[lesson.generations] - taught[lesson.generations] - known
+            later = any(needs & taught[each.generations] for each in left)
+            if not later and not any(taught[lesson.generations] & taught[each.generations] for each in left[:place]):
+                break
+        else:
+            lesson = left[0]
+        left.remove(lesson)
+        known |= taught[lesson.generations]
+        order.append(lesson)
+    assert order == list(mind.lessons)

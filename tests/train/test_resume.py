@@ -4,9 +4,11 @@ import random
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from time import sleep
 
+from mindrun.graph.graph import HardLayouts
 from mindrun.train.champion_log import CHAMPION_ROWS
 from mindrun.train.manifest import Manifest
 from mindrun.train.progress import read_progress
@@ -63,6 +65,11 @@ def test_what_an_attempt_has_been_waiting_for_is_not_forgotten(tmp_path: Path) -
 def test_how_high_attempts_have_climbed_is_not_forgotten(tmp_path: Path) -> None:
     records = stops_after_any_generation(tmp_path, manifest(lesson(16, attempts=4, rungs=2)), 5)
     assert len(records) < 64
+
+
+def test_hard_layouts_are_drawn_at_the_same_addresses_after_a_stop(tmp_path: Path) -> None:
+    hard = replace(lesson(5, attempts=2, layouts=3), hard=HardLayouts(0.25, ("3", "5", "7")))
+    stops_after_any_generation(tmp_path, manifest(hard))
 
 
 def stops_after_any_generation(tmp_path: Path, course: Manifest, every: int = 1) -> list[dict[str, float | None]]:

@@ -7,9 +7,9 @@ import type { About } from "./protocol";
 import type { World } from "./world";
 
 /** What grows without being asked, and how that is said. */
-export const LIVE: Partial<Record<About["source"], string>> = { robot: "live from the robot", environment: "live from an environment" };
+export const LIVE: Partial<Record<About["source"], string>> = { robot: "live from the robot", environment: "live from an environment", driven: "driven by hand" };
 
-const CHANGED: About["source"][] = ["simulation", "training"]; // by one page; a file is changed by none
+const CHANGED: About["source"][] = ["simulation", "training", "driven"]; // by one page; a file is changed by none
 
 /** The title of a run, and where it comes from. */
 export function showTitle({ title, source, edits }: About): void {

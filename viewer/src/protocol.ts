@@ -29,6 +29,13 @@ export interface Order {
   high: number;
 }
 
+/** An actuator or a skill that a hand holds. */
+export interface Grip {
+  name: string;
+  neutral: number; // what it says where nothing is pushed
+  role: "left" | "right" | "ahead" | "turn" | ""; // of what moves the robot
+}
+
 /** From a node to a node; what edge number i transmits is the i-th column of the group `flow`. */
 export interface Edge {
   from: number;
@@ -83,11 +90,12 @@ export interface About {
   title: string;
   task: string | null;
   master: string;
-  source: "simulation" | "recording" | "robot" | "training" | "environment";
+  source: "simulation" | "recording" | "robot" | "training" | "environment" | "driven";
   training?: Playing;
   seed: string | null;
   edits: boolean;
   orders: Order[]; // that whoever sees this may say
+  drive: Grip[]; // that whoever sees this may drive
   tick: number; // seconds
   of_ticks: number | null;
   doubles: number;

@@ -3,6 +3,7 @@
 import { ActiveList } from "./active";
 import { Curves } from "./curves";
 import { element, svgElement } from "./elements";
+import { Drive } from "./drive";
 import { Edit } from "./edit";
 import { Events } from "./events";
 import { Forks } from "./forks";
@@ -82,6 +83,7 @@ export class View {
     this.edit = new Edit(element("edit"), about, send, () => this.playback.tick);
     this.selection = new Selection(about, this.why, this.edit, () => this.row);
     this.orders = new Orders(element("orders"), about, send);
+    new Drive(about, send, this.left.signal);
     this.forks = new Forks(element<HTMLSelectElement>("forks"), about, send, () => this.beside());
     const followed = (newest: boolean) => (follows.newest = newest);
     this.learning = about.training ? new Learning(about, trainings, send, theme(), follows.newest, followed) : null;

@@ -27,6 +27,7 @@ _FORMS: Mapping[str, type[Struct]] = {
     "counts": syntax.Counts, "transmission": syntax.Transmits,
     "each": syntax.Each, "when": syntax.When, "comparison": syntax.Comparison, "argument": Argument,
     "setting": Argument, "origin": Argument, "family": syntax.Family,
+    "deadline": syntax.Deadline, "after": syntax.Deadline, "lasting": syntax.Lasting,
 }  # fmt: skip
 _SENT = {"name": Name, "at": Expression, "gate": syntax.Gate, "stands_for": Name}
 _NEED = {"measure": Name, "compare": str, "above": Amount, "event": Phrase}
@@ -41,8 +42,15 @@ _FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, Any]]] = {
     "succeeds": (syntax.Succeeds, _OUTCOME),
     "opens": (syntax.Opens, {"name": Name, **_OUTCOME}),
     **dict.fromkeys(("needs", "often", "until"), (syntax.Needs, _NEED)),
+    "avoids": (syntax.Avoids, _OUTCOME),
+    "keeps": (syntax.Keeps, {"when": syntax.When, "time": syntax.Deadline}),
+    "prefers": (syntax.Prefers, {"how": Name, "amount": Expression}),
+    "tally": (syntax.Tally, {"word": Name, "event": Phrase, "when": syntax.When, "value": Expression}),
     "stop": (syntax.Stop, {**_OUTCOME, "tick": syntax.Tick}),
-    "rewards": (syntax.Rewards, {"amount": Expression, "on": Phrase, "each": syntax.Each, "when": syntax.When}),
+    "rewards": (
+        syntax.Rewards,
+        {"amount": Expression, "on": Phrase, "each": syntax.Each, "when": syntax.When, "final": Name},
+    ),
 }
 
 
@@ -83,6 +91,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
 
     TITLE = LETTER = PART = WHOLE = TASK = COMPUTED = NUMBERED = SEVERAL = ORDERED = BROKEN = NAME
     GYMNASIUM = ENVIRONMENT = FROM = TO = BY = ON = OF = FACING = AT = ALONG = WITHIN = NAME
+    COUNT = LONGEST = SUM = FINAL = SOON = HOW = NAME
 
     def COMPARE(self, token: Token) -> str:  # noqa: N802
         """A sign between two values."""
@@ -192,6 +201,17 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     def event(self, meta: Any, parts: list[Any]) -> Phrase:
         phrase, within = (*parts, None)[:2]
         return Phrase(phrase.kind, phrase.arguments, self._span(meta), within)
+
+    def then(self, meta: Any, parts: list[Any]) -> syntax.Wants | syntax.Keeps:
+        goal: syntax.Wants | syntax.Keeps = replace(parts[0], then=True, span=self._span(meta))
+        return goal
+
+    def wants(self, meta: Any, parts: list[Any]) -> syntax.Wants:
+        times = parts.pop(0) if isinstance(parts[0], Amount) else None
+        deadline = parts.pop() if isinstance(parts[-1], syntax.Deadline) else None
+        event, within = (*parts, None)[:2]
+        span = Span(self.source, event.span.start, (within or event).span.end)
+        return syntax.Wants(times, Phrase(event.kind, event.arguments, span, within), deadline, self._span(meta))
 
     def numbers(self, meta: Any, parts: list[Any]) -> Numbers | syntax.Sums:
         """Amounts, or where anything is computed sums: where only numbers stand a sign never adds, as `10 - 20`."""

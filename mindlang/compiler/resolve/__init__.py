@@ -9,10 +9,11 @@ from msgspec.structs import replace
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings
-from mindlang.compiler.expand import expand, fill_number, number_values
+from mindlang.compiler.expand import expand, fill_number, number_values, number_writer
 from mindlang.compiler.hierarchy import refuse_circles
 from mindlang.compiler.names import Names, declared_names
 from mindlang.compiler.resolve.curricula import lessons
+from mindlang.compiler.resolve.goals import with_goals
 from mindlang.compiler.resolve.outside import body_outside, check_outside, is_outside
 from mindlang.compiler.resolve.parts import check_drives, resolve_parts, sensors
 from mindlang.compiler.resolve.quantities import convert
@@ -38,6 +39,7 @@ def resolve_mind(files: Sequence[File], findings: Findings) -> model.Mind | None
     unit = _agreed(files, Unit, LENGTH_OF_UNIT, values, findings)
     _check_versions(files, findings)
     names = expand(written, values, tick, findings)
+    names = with_goals(names, number_writer(names, values, tick), tick, findings)
     known_sensors = sensors(names, findings)
     width = dict.fromkeys(names.of("sensor", "memory"), 1) | {each.name: each.width for each in known_sensors}
     memories, actuators = resolve_parts("memory", names, findings), resolve_parts("actuator", names, findings)
@@ -46,10 +48,11 @@ def resolve_mind(files: Sequence[File], findings: Findings) -> model.Mind | None
     says, hint = "Skills influence one another in a circle", "Influence flows one way, from the master down"
     refuse_circles("influence-cycle", influences, findings, says, f"{hint}: take one of these lines out.", ONWARDS)
     body = body_outside(names, findings) if (outside := is_outside(names)) else _body(names, findings)
-    robot = RobotFacts(names, width, tick, files[0].source.folder, body, actuators, known_sensors)
+    root = files[0].source.folder
+    robot = RobotFacts(names, width, tick, root, body, actuators, known_sensors)
     known_tasks = resolve_tasks(robot, findings)
     check_outside(known_tasks, known_sensors, actuators, findings)
-    known_lessons = tuple(lessons(names, known_skills, influences, known_tasks, known_sensors, width, findings))
+    known_lessons = tuple(lessons(names, known_skills, influences, known_tasks, known_sensors, width, root, findings))
     if body and not outside:
         check_drives(body, actuators, findings)
     head = _master(files[0], names, findings)

@@ -1,7 +1,11 @@
 """Curricula: who is taught what, under which master, for how long, and with whose weights a lesson begins."""
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from heapq import heappop, heappush
+from itertools import pairwise
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from mindrun.graph.graph import Need
@@ -16,6 +20,7 @@ from mindlang.compiler.families import said
 from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.kinds import Scope, a_name, make_event, make_kind, once, overrides
+from mindlang.compiler.resolve.layouts import HARD, OF, hard_layouts
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Amount, Argument, Name, Needs, Phrase, Teaches, of_form
@@ -41,11 +46,14 @@ def lessons(
     tasks: tuple[model.Task, ...],
     sensors: Sequence[model.Part[Any]],
     widths: Mapping[str, int],
+    root: Path,
     findings: Findings,
 ) -> Iterator[model.Lesson]:
     """Every lesson of every curriculum that is well said; those that others wait for come first."""
     known = {skill.name: skill for skill in skills}, influences, {task.name: task for task in tasks}
-    context = _LessonContext(names, *known, {each.name: type(each.kind).__name__ for each in sensors}, widths, findings)
+    context = _LessonContext(
+        names, *known, {each.name: type(each.kind).__name__ for each in sensors}, widths, root, findings
+    )
     for name, declaration in names.declarations("curriculum"):
         refuse_facts(declaration, ("teaches",), findings)
         phrase = declaration.header.phrase
@@ -67,6 +75,7 @@ class _LessonContext:
     tasks: Mapping[str, model.Task]
     kinds: Mapping[str, str]
     widths: Mapping[str, int]
+    root: Path
     findings: Findings
 
     def lesson(self, curriculum: str, fact: Teaches, learner: Any, heirs: Mapping[str, str]) -> model.Lesson | None:
@@ -89,6 +98,7 @@ class _LessonContext:
             self._check_reached(fact, master)
             if origin:
                 self._check_origin(origin, self.skills[fact.skill.text], heirs)
+        hard = hard_layouts(fact.arguments, self.root, self.findings)
         needs = self._needs(fact)
         until = self._need(fact.until, fact.task.text, "until") if fact.until else None
         if learner is None or generations is None or len(self.findings.diagnostics) > before:
@@ -105,6 +115,7 @@ class _LessonContext:
             starts_from=origin.text if origin else "",
             needs=needs,
             until=until,
+            hard=hard,
             fact=fact,
         )
 
@@ -113,21 +124,25 @@ class _LessonContext:
 
         Those that teach one skill stay in order. Of a circle the first stands where it is.
         """
-        left = list(lessons)
-        taught = {lesson.fact: self._taught(lesson) for lesson in left}
-        acting = {lesson.fact: self._owners({*self._below(lesson.master), lesson.starts_from}) for lesson in left}
-        needs = {fact: of - taught[fact] for fact, of in acting.items()}
-        while left:
-            free = (
-                lesson
-                for place, lesson in enumerate(left)
-                if not any(needs[lesson.fact] & taught[other.fact] for other in left)
-                and not any(taught[lesson.fact] & taught[other.fact] for other in left[:place])
-            )
-            following = next(free, left[0])
-            left.remove(following)
-            needs = {fact: of - taught[following.fact] for fact, of in needs.items()}
-            yield following
+        teachers = defaultdict[str, list[int]](list)
+        for place, lesson in enumerate(lessons):
+            for skill in self._taught(lesson):
+                teachers[skill].append(place)
+        waits = DiGraph(pair for places in teachers.values() for pair in pairwise(places))
+        waits.add_nodes_from(range(len(lessons)))
+        for place, lesson in enumerate(lessons):
+            acting = self._owners({*self._below(lesson.master), lesson.starts_from})
+            first = {teachers[skill][0] for skill in acting & teachers.keys()}
+            waits.add_edges_from((earlier, place) for earlier in first - {place})
+        free = sorted(place for place, earlier in waits.in_degree if not earlier)
+        while waits:
+            place = heappop(free) if free else min(waits)
+            later = list(waits[place])
+            waits.remove_node(place)
+            for each in later:
+                if not waits.in_degree(each):
+                    heappush(free, each)
+            yield lessons[place]
 
     def _taught(self, lesson: model.Lesson) -> set[str]:
         names = self._below(lesson.skill) if lesson.with_subskills else {lesson.skill}
@@ -163,7 +178,8 @@ class _LessonContext:
             learner = make_kind("curriculum", phrase, Scope(self.names, None), self.findings)
         if learner is None:
             return None
-        own = [argument for argument in fact.arguments if argument.key.text not in {*SWITCHES, USING}]
+        others = {*SWITCHES, USING, HARD, *([OF] if any(each.key.text == HARD for each in fact.arguments) else [])}
+        own = [argument for argument in fact.arguments if argument.key.text not in others]
         return replace(learner, **overrides(type(learner), said_by, own, self.findings))
 
     def _needs(self, fact: Teaches) -> tuple[Need, ...]:
@@ -205,7 +221,7 @@ class _LessonContext:
     def _event_need(self, written: Phrase, above: Amount, task: str, word: str) -> Need | None:
         """How often an event of its task has to happen in a lesson; None after reporting what is wrong with it."""
         before, learners = len(self.findings.diagnostics), kinds("curriculum").values()
-        of_lessons = {*SWITCHES, USING, *(each.key for learner in learners for each in arguments(learner))}
+        of_lessons = {*SWITCHES, USING, HARD, *(each.key for learner in learners for each in arguments(learner))}
         for argument in (each for each in written.arguments if each.key.text in of_lessons):
             place = "before needs" if word == "needs" else "behind the generations"
             message = f"{argument.key.text} is no part of an event, and stands elsewhere in a lesson."
@@ -331,20 +347,16 @@ def counterparts(
     if len(set(found.values())) < len(found):
         return None
 
-    def shape(name: str) -> tuple[str | None, str]:
-        plain, _, width = name.partition(":")
-        return kinds.get(plain), width
+    def width(name: str) -> str:
+        return name.partition(":")[2]
 
-    for missing in [name for name in among if name not in found.values()]:
-        others = [name for name in among if shape(name) == shape(missing) and name not in found.values()]
-        standing = [name for name in of if shape(name) == shape(missing) and name not in found]
-        if len(others) == len(standing) == 1:
-            found[standing[0]] = missing
-    own = [name for name in of if name not in found]
-    for missing in [name for name in among if name not in found.values()]:
-        width = missing.partition(":")[2]
-        standing = [name for name in own if name.partition(":")[2] == width and name not in found]
-        if len(standing) != 1:
-            return None
-        found[standing[0]] = missing
-    return found
+    def shape(name: str) -> tuple[str | None, str]:
+        return kinds.get(name.partition(":")[0]), width(name)
+
+    for alike in (shape, width):
+        for missing in [name for name in among if name not in found.values()]:
+            others = [name for name in among if alike(name) == alike(missing) and name not in found.values()]
+            standing = [name for name in of if alike(name) == alike(missing) and name not in found]
+            if len(others) == len(standing) == 1:
+                found[standing[0]] = missing
+    return found if {*found.values()} == {*among} else None

@@ -8,12 +8,14 @@ from typing import Any, TypeVar
 from mindrun.graph.draws import Draw
 from mindrun.kinds.registry import find_kind, kinds
 from mindrun.numbers.quantity import Quantity
+from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings
-from mindlang.compiler.resolve.kinds import Scope, make_kind
+from mindlang.compiler.resolve.kinds import Scope, make_event, make_kind
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.syntax import Amount, Expression, Phrase, Term, rebuilt
+from mindlang.compiler.syntax import Amount, Expression, Phrase, Tally, Term, rebuilt
 
+TALLIES = ("count", "longest", "sum")
 TRUTH = {"true": 1, "yes": 1, "false": 0, "no": 0}
 PLAIN = Quantity("a plain number", {"": 1.0, "%": 0.01})
 
@@ -59,10 +61,12 @@ def resolve_expression(expression: Expression, visible: Visible, findings: Findi
     return Expression(tuple(term for term in terms if term), expression.span)
 
 
-def _term(term: Amount | Phrase | Term, visible: Visible, findings: Findings) -> Term | None:
+def _term(term: Amount | Phrase | Term | Tally, visible: Visible, findings: Findings) -> Term | None:
     match term:
         case Term():
             return term
+        case Tally():
+            return _tally(term, visible, findings)
         case Amount():
             value = convert(term, PLAIN, findings)
             return None if value is None else Term("number", value, term.span)
@@ -88,6 +92,23 @@ def _term(term: Amount | Phrase | Term, visible: Visible, findings: Findings) ->
     return None
 
 
+def _tally(tally: Tally, visible: Visible, findings: Findings) -> Term | None:
+    """A tally whose event and condition are resolved; None after reporting what is wrong with it."""
+    if not visible.measures or visible.each:
+        hint = "Write it in a line that rewards at the end, or in one that ends a run."
+        message = f"What is counted in a run has no place here: {visible.where[0].lower()}{visible.where[1:]}."
+        if visible.each:
+            message = "What is counted in a run is no matter of each reading."
+        findings.error("misplaced-tally", tally.span, message, hint)
+        return None
+    event = make_event(tally.event, visible.measures, findings) if tally.event else None
+    if event and event.is_of_success:
+        hint = "Leave it out: behind it nothing is counted any more."
+        findings.error("misplaced-tally", tally.event.span, "A success ends the run, and is not counted in it.", hint)
+    when, value = resolve_expressions((tally.when, tally.value), visible, findings)
+    return Term("tally", replace(tally, event=event, when=when, value=value), tally.span)
+
+
 def _refuse_unknown(term: Phrase, visible: Visible, findings: Findings) -> None:
     name, here = term.kind.text, term.kind.span
     if name in TRUTH:
@@ -111,6 +132,8 @@ def _refuse_unknown(term: Phrase, visible: Visible, findings: Findings) -> None:
         hint = findings.suggest(name, visible.readings, kinds("measure"))
         if name in kinds("event"):
             hint = f"{name} is an event, which stands after on: rewards 1 on {said}, ends on {said}."
+        if name in TALLIES:
+            hint = "What is counted in a run stands in parentheses: (count of collision)."
         hint = hint or "A reward is made of sensors, memories and measures such as forward or progress toward X."
         findings.error("unknown-measure", here, f"There is no reading or measure called {name}.", hint)
     else:

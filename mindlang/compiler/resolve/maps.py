@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.model import Thing
 from mindlang.compiler.source import MAX_SOURCE_BYTES, Span, decode_source
-from mindlang.compiler.syntax import Contains, File, Text, Uses, Value, of_form
+from mindlang.compiler.syntax import Contains, File, Teaches, Text, Uses, Value, of_form
 
 MAX_SHOWN_LETTERS = 3  # of those that nothing begins with
 PICTURES = re.compile(rb"P[1-6]\s|\x89PNG|\xff\xd8\xff|GIF8|BM")
@@ -32,16 +32,14 @@ def text_lines(value: Value, root: Path | None, findings: Findings) -> tuple[str
         hint = 'Write its name between quotation marks: map from "maze.txt".'
         findings.error("not-a-file", value.span, "Here stands the name of a text file.", hint)
         return None
-    path = path_of(value)
-    if path is None or (root and not path.is_relative_to(root.resolve())):
-        hint = "A map is in the folder of the mind or below it; its path is relative to the file in which it stands."
-        findings.error("outside-project", value.span, f'"{value.text}" is not inside the project.', hint)
+    hint = "A map is in the folder of the mind or below it; its path is relative to the file in which it stands."
+    if (path := path_inside(value, root, hint, findings)) is None:
         return None
     try:
         data = read_regular(path, MAX_SOURCE_BYTES + 1)
         text = "" if PICTURES.match(data) else decode_source(data)
     except (OSError, ValueError, RuntimeError) as error:
-        why = f"cannot be read: {reason(error)}" if isinstance(error, OSError) else f"cannot be read: it {error}"
+        why = why_unread(error)
         hint = "The path is relative to the file in which it stands; a map is a text of # and . and letters."
     else:
         hint = f"{SQUARES}. {IMPORT} {value.text} -o walls.txt makes one of it."
@@ -57,6 +55,20 @@ def text_lines(value: Value, root: Path | None, findings: Findings) -> tuple[str
     return None
 
 
+def path_inside(value: Text, root: Path | None, hint: str, findings: Findings) -> Path | None:
+    """The file that a text names in the project's folder or below it; None after reporting that it is elsewhere."""
+    path = path_of(value)
+    if path is None or (root and not path.is_relative_to(root.resolve())):
+        findings.error("outside-project", value.span, f'"{value.text}" is not inside the project.', hint)
+        return None
+    return path
+
+
+def why_unread(error: Exception) -> str:
+    """The reason why a text cannot be read or decoded, behind the name of its file."""
+    return f"cannot be read: {reason(error) if isinstance(error, OSError) else f'it {error}'}"
+
+
 def path_of(value: Text) -> Path | None:
     """The file that a text names beside the file in which it stands; None where that is none."""
     try:
@@ -66,9 +78,10 @@ def path_of(value: Text) -> Path | None:
 
 
 def map_paths(files: Iterable[File]) -> list[Path]:
-    """The text files that tasks and scenes name, and the files that procedures use."""
+    """The text files that tasks, scenes and lessons name, and the files that procedures use."""
     facts = [fact for file in files for declaration in file.declarations for fact in declaration.facts]
     values = [each.value for fact in of_form(facts, Contains) for each in fact.phrase.arguments]
+    values += [each.value for fact in of_form(facts, Teaches) for each in fact.arguments]
     values += [fact.file for fact in of_form(facts, Uses)]
     return [path for value in values if isinstance(value, Text) and (path := path_of(value))]
 

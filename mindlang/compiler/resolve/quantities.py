@@ -12,6 +12,8 @@ from mindlang.compiler.diagnostic import Findings, Label, listed
 from mindlang.compiler.syntax import Amount, Either, Name, Numbers, Points, Range, Value
 
 MOST_NUMBERS = 20_000  # of a list that is said by its step
+MAX_RUN_TICKS = 10_000_000  # of a run
+TIMES = Quantity("how many times", {"": 1.0}, low=1, high=MAX_RUN_TICKS, whole=True)
 
 
 def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = "") -> float | int | None:

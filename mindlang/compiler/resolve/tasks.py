@@ -6,7 +6,7 @@ from typing import Any
 
 from mindrun.graph.tasks import unfit_thing
 from mindrun.kinds.registry import names
-from mindrun.numbers.quantity import SECONDS, TICKS, Quantity
+from mindrun.numbers.quantity import SECONDS, TICKS
 
 from mindlang.compiler import model
 from mindlang.compiler.beginning import first_tick_hint, task_beginning
@@ -14,16 +14,15 @@ from mindlang.compiler.diagnostic import Findings, Label, a, listed
 from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import make_event
 from mindlang.compiler.resolve.parts import refuse_facts, said_once
-from mindlang.compiler.resolve.quantities import convert
+from mindlang.compiler.resolve.quantities import MAX_RUN_TICKS, TIMES, convert
 from mindlang.compiler.resolve.worlds import ResolvedWorld, RobotFacts, resolve_world
 from mindlang.compiler.syntax import Counts, Declaration, Ends, Lasts, Name, Opens, Phrase, Rewards, Succeeds, of_form
 
-MAX_RUN_TICKS = 10_000_000  # of a run
-TIMES = Quantity("how many times", {"": 1.0}, low=1, high=MAX_RUN_TICKS, whole=True)
 LASTS = replace(TICKS, low=1.0, high=MAX_RUN_TICKS)
 
 SCENE_FACTS = ("contains", "starts", "draws", "varies", "fails")  # what the world is, not what is to be done in it
-TASK_FACTS = (*SCENE_FACTS, "lasts", "ends", "succeeds", "opens", "rewards", "counts")
+GOAL_FACTS = ("wants", "avoids", "keeps", "prefers")
+TASK_FACTS = (*SCENE_FACTS, "lasts", "ends", "succeeds", "opens", "rewards", "counts", *GOAL_FACTS)
 
 
 def resolve_tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:

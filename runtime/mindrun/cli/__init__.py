@@ -1,13 +1,13 @@
 """The command line of `mindrun`, and its tools, one file each: `options` adds the arguments of one, `run` does it."""
 
-from argparse import ArgumentParser
+from argparse import ArgumentParser, _ArgumentGroup
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
 from textwrap import fill
 
 from mindrun import VERSION
-from mindrun.terminal.arguments import MAX_SEED, new_file, parser, real, whole
+from mindrun.terminal.arguments import MAX_SEED, listed_names, new_file, parser, real, whole
 
 MAX_PORT = 65535
 MAX_TICK = 2**63 - 1  # tick
@@ -20,6 +20,7 @@ DRIVING_EXAMPLES = """examples:
   mindrun ball.bundle --arm --view                 seen in a browser meanwhile
   mindrun ball.bundle --arm --view --break day.break   a page that pauses there
   mindrun ball.bundle --dry --arm                  in a simulated world
+  mindrun ball.bundle --arm --drive left_wheel,right_wheel   by hand
   mindrun fetch.bundle --arm --order wanted=3      and what is typed meanwhile
   mindrun ball.bundle --describe                   what it holds
   mindrun collect.bundle --json                    the same as JSON
@@ -65,13 +66,25 @@ def driving_parser() -> ArgumentParser:
     robot.add_argument(
         "--dry", action="store_true", help="no hardware: a run in a simulated world (needs the simulator)"
     )
-    robot.add_argument(
-        "--order", action="append", default=[], metavar="NAME=X", help="what a sensor that is an order reads at first"
-    )
     robot.add_argument("--task", metavar="TASK", help="with --dry: the task of that world (default: the master's)")
     robot.add_argument("--seed", type=whole(0, MAX_SEED), default=1, help="with --dry: the layout of that world")
     robot.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors, and where a view is")
+    _add_what_is_said(robot)
     return known
+
+
+def _add_what_is_said(robot: _ArgumentGroup) -> None:
+    """Add the options by which a person takes part."""
+    robot.add_argument(
+        "--order", action="append", default=[], metavar="NAME=X", help="what a sensor that is an order reads at first"
+    )
+    robot.add_argument(
+        "--drive",
+        type=listed_names,
+        default=(),
+        metavar="NAME,…",
+        help="actuators, or skills, that a person drives",
+    )
 
 
 def tools() -> list[str]:

@@ -8,7 +8,7 @@ from mindrun.kinds.actuators.actuator import REACH_UNITS, ActuatorKind
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.events.event import EventKind
 from mindrun.kinds.functions.function import Function
-from mindrun.kinds.learners import Learner
+from mindrun.kinds.learners import Learner, Share
 from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.kinds.memory import Cell
 from mindrun.kinds.registry import arguments, left_out, phrase
@@ -166,7 +166,7 @@ class Reward:
     """One reward line. `on` is an index into the task's events, or None for "per tick"; `when` is a condition.
 
     With `each`, a sensor's (start, width), the amount is added once for each of those readings, which the programs
-    read as ("each", 0).
+    read as ("each", 0). One that is `last` is worth what its amount is in the last tick in which it is paid.
     """
 
     text: str
@@ -174,6 +174,7 @@ class Reward:
     on: int | None
     each: tuple[int, int] | None = None
     when: Program | None = None
+    last: bool = left_out(False)
 
     @property
     def programs(self) -> tuple[Program, ...]:
@@ -195,6 +196,25 @@ class End:
     succeeds: bool = False
     text: str = ""
     opens: str = left_out("")
+
+
+@dataclass(frozen=True, slots=True)
+class Tally:
+    """How often an event, by its index, has happened in a run while a condition held, or in how many ticks that held.
+
+    With `longest`, in how many one after the other at the most; with a `value`, the sum of that in these ticks. Its
+    programs may be about the tallies before it.
+    """
+
+    event: int | None
+    when: Program | None = None
+    longest: bool = False
+    value: Program | None = None
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """The programs of a tally: its value and its condition, if it has them."""
+        return tuple(program for program in (self.value, self.when) if program is not None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -238,7 +258,7 @@ class Task:
     """A task: its world, its ends, its rewards. `counts` are indices into `events`.
 
     What of the world and the robot `varies` is drawn for each run, and so is when what `fails` does, and what it
-    `draws`: programs have it as ("drawn", index).
+    `draws`: programs have it as ("drawn", index), and what it `tallies` as ("tally", index).
     """
 
     name: str
@@ -254,12 +274,14 @@ class Task:
     varies: tuple[Variation, ...] = ()
     fails: tuple[Failure, ...] = ()
     draws: tuple[Draw, ...] = left_out(())
+    tallies: tuple[Tally, ...] = left_out(())
 
     @property
     def programs(self) -> tuple[Program, ...]:
-        """The programs of its rewards and its ends."""
+        """The programs of its rewards, its ends and its tallies."""
         ends = (end.when for end in self.ends if end.when is not None)
-        return (*(program for reward in self.rewards for program in reward.programs), *ends)
+        judging: tuple[Reward | Tally, ...] = (*self.rewards, *self.tallies)
+        return (*(program for each in judging for program in each.programs), *ends)
 
     @property
     def can_succeed(self) -> bool:
@@ -290,6 +312,17 @@ class Need:
 
 
 @dataclass(frozen=True, slots=True)
+class HardLayouts:
+    """Layouts on which genomes of a lesson are scored instead of a `share` of any, as the `seeds` of their runs.
+
+    The seeds are digits: a whole number up to 2^64 is more than what every reader of JSON takes.
+    """
+
+    share: Share
+    seeds: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Lesson:
     """A lesson: which `skill` learns, on which task, driven by which master, for how long, and how (`learner`).
 
@@ -297,7 +330,7 @@ class Lesson:
     its place in its curriculum, from 1; 0 in what was made before lessons had one. One that `starts_from` another skill
     begins with a copy of its weights. One with `needs` has failed where its last attempt does not meet them all: it
     ends with the first attempt that does, and what has failed is not taught. One with `until` ends an attempt once its
-    champion does so well, before it has had its generations.
+    champion does so well, before it has had its generations. With `hard` a share of its layouts are some of these.
     """
 
     curriculum: str
@@ -312,6 +345,7 @@ class Lesson:
     starts_from: str = ""
     needs: tuple[Need, ...] = ()
     until: Need | None = left_out(None)
+    hard: HardLayouts | None = left_out(None)
 
     @property
     def all_needs(self) -> tuple[Need, ...]:

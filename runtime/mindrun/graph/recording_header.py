@@ -15,13 +15,12 @@ from mindrun.files.strict_json import are_names, is_whole, parsed
 from mindrun.graph.codec import decode, encode
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.named_readings import physical
-from mindrun.graph.validate import MAX_TICK_SECONDS, MIN_TICK_SECONDS
+from mindrun.graph.validate import MAX_SEED, MAX_TICK_SECONDS, MIN_TICK_SECONDS
 from mindrun.numbers.arrays import Doubles
 from mindrun.numbers.quantity import NUMBER, SECONDS, Quantity
 
 FORMAT = "mind recording 3"
 MAX_HEADER_BYTES = 1 << 20
-MAX_SEED = (1 << 64) - 1
 COLUMNS = Quantity("a number of columns", {"": 1.0}, low=0, high=MAX_HEADER_BYTES, whole=True)
 TICK = replace(SECONDS, low=MIN_TICK_SECONDS, high=MAX_TICK_SECONDS)
 CHECKSUM_FIELD = b', "check": "'  # the checksum of the line before it, which is the last that it says
@@ -91,7 +90,11 @@ class RecordedWorld:
 
 @dataclass(frozen=True, slots=True)
 class About:
-    """The header of a recording: the SHA-256 of its bundle, the master, the names of its columns, its world if any."""
+    """The header of a recording: the SHA-256 of its bundle, the master, the names of its columns, its world if any.
+
+    The actuators and skills that are `by_hand` were commanded, and given influence, by a person in all ticks in which
+    the robot was not stopped: `sent` has those commands, beside the mind's own in `commands`.
+    """
 
     bundle: str
     master: str
@@ -101,6 +104,7 @@ class About:
     skills: tuple[str, ...]
     readings: Annotated[int, COLUMNS]
     world: RecordedWorld | None = None
+    by_hand: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, graph: Graph, bundle: str, master: str, sensors: Sequence[str]) -> Self:
@@ -117,9 +121,10 @@ class About:
                 "take the bundle that was running",
             )
         worlds = [(task.name, world_row_of(task)) for task in graph.tasks]
-        expected = replace(About.of(graph, bundle, self.master, self.sensors), world=self.world)
+        expected = replace(About.of(graph, bundle, self.master, self.sensors), world=self.world, by_hand=self.by_hand)
         if (
             self != expected
+            or not {*self.by_hand} <= {*self.actuators, *self.skills}
             or self.master not in self.skills
             or not set(self.sensors) <= physical(graph).keys()
             or (self.world and (self.world.task, self.world.row) not in worlds)
@@ -138,7 +143,7 @@ class About:
         ])  # fmt: skip
 
 
-NAME_LISTS = ("sensors", "actuators", "skills")
+NAME_LISTS = ("sensors", "actuators", "skills", "by_hand")
 
 
 def line_of(about: About) -> bytes:
@@ -146,6 +151,8 @@ def line_of(about: About) -> bytes:
     said = {"format": FORMAT, **encode(about)}
     if about.world is None:
         del said["world"]
+    if not about.by_hand:
+        del said["by_hand"]
     line = _sealed(json.dumps(said, allow_nan=False).encode()[:-1] + CHECKSUM_FIELD)
     if len(line) > MAX_HEADER_BYTES:
         raise RecordingError("this world has too many things and obstacles to be recorded")
@@ -160,7 +167,7 @@ def about_of_line(line: bytes, path: Path) -> About:
             raise ValueError(_foreign(plain))
         if line != _sealed(line):
             raise RecordingError(f"{path} is damaged in its first line")
-        found = _typed({each.name: plain.get(each.name) for each in fields(About)})
+        found = _typed({"by_hand": []} | {each.name: plain[each.name] for each in fields(About) if each.name in plain})
         return replace(found, world=_world(plain["world"])) if "world" in plain else found
     except ValueError as error:
         raise RecordingError(f"{path} is no recording of this mindrun: {error}") from error

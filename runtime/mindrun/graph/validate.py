@@ -17,6 +17,7 @@ from mindrun.numbers.expression import CHOICES, OPERATORS, is_condition, is_vali
 from mindrun.numbers.quantity import COORDINATE, NUMBER, SKILL, THING, UNSAID, fits
 
 NAME = re.compile(r"[^\W\d_]\w*([+.]\w+)*")
+MAX_SEED, SEED_DIGITS = 2**64 - 1, 20  # the greatest seed of a run, and how many digits it has
 MIN_TICK_SECONDS, MAX_TICK_SECONDS = 1e-9, 1e9  # seconds of a tick
 
 
@@ -61,6 +62,11 @@ def _name_flaws(graph: Graph) -> Iterator[str]:
         yield f"its master {graph.master!r:.60} is not one of its skills"
 
 
+def is_layout(seed: str) -> bool:
+    """True if digits are the seed of a run."""
+    return seed.isascii() and seed.isdigit() and len(seed) <= SEED_DIGITS and int(seed) <= MAX_SEED
+
+
 def lesson_flaws(lesson: Lesson) -> Iterator[str]:
     """The flaws of a lesson by itself."""
     named = (lesson.curriculum, lesson.skill, lesson.task, lesson.master, lesson.starts_from or lesson.skill)
@@ -69,6 +75,8 @@ def lesson_flaws(lesson: Lesson) -> Iterator[str]:
             yield f"a lesson cannot name {name!r:.60}"
     if any((need.measure == "event") != bool(need.event) for need in lesson.all_needs):
         yield f"the lesson of {lesson.skill} needs what is not said"
+    if lesson.hard and not (lesson.hard.seeds and all(map(is_layout, lesson.hard.seeds))):
+        yield f"the lesson of {lesson.skill} has hard layouts that are none"
     if lesson.generations < 1:
         yield f"the lesson of {lesson.skill} has no generation"
 
@@ -172,29 +180,50 @@ def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
     yield from _world_flaws(task)
     yield from _draw_flaws(task)
     happens = {*(end.event for end in task.ends), *task.counts, *(reward.on for reward in task.rewards)}
+    happens |= {tally.event for tally in task.tallies}
     if not happens <= {None, *range(len(task.events))}:
         yield "names an event that is not there"
     others = [event.within.of for event in task.events if event.within]
     if any(other.within or other.is_of_success or other not in task.events for other in others):
         yield "has an event that comes after one that is not there"
     known = range(width), len(task.measures), actuators, len(task.draws)
+    yield from _tally_flaws(task, known)
+    yield from _reward_flaws(task, width, known)
     in_the_way = {"", *(thing.name for thing in task.things if thing.kind.is_obstacle)}
     for end in task.ends:
         if end.opens not in in_the_way or (end.opens and end.succeeds):
             yield "opens what cannot be opened"
         if (end.event is None) == (end.when is None) or end.times < 1:
             yield "has an end that never comes"
-        if end.when is not None and not (is_condition(end.when) and _computes(end.when, *known)):
+        if end.when is not None and not (
+            is_condition(end.when) and _computes(end.when, *known, tallies=len(task.tallies))
+        ):
             yield "has an end that cannot be computed"
         if end.event is not None and task.events[end.event].is_of_success:
             yield "ends on its own success"
+
+
+def _reward_flaws(task: Task, width: int, known: tuple[range, int, int, int]) -> Iterator[str]:
+    """A reward can be computed, and only what is paid in each tick is so for each reading."""
     for reward in task.rewards:
-        if not all(_computes(program, *known, reward.each is not None) for program in reward.programs):
+        is_each, tallies = reward.each is not None, len(task.tallies)
+        if not all(_computes(program, *known, is_each, tallies) for program in reward.programs) or (
+            reward.last and is_each
+        ):
             yield "has a reward that cannot be computed"
         if reward.when is not None and not is_condition(reward.when):
             yield "has a condition that cannot be computed"
         if reward.each and not (reward.each[0] >= 0 and 0 < reward.each[1] <= width - reward.each[0]):
             yield "rewards readings that are not there"
+
+
+def _tally_flaws(task: Task, known: tuple[range, int, int, int]) -> Iterator[str]:
+    """A tally is about tallies before it, and about no success."""
+    for number, tally in enumerate(task.tallies):
+        is_sound = all(_computes(program, *known, tallies=number) for program in tally.programs)
+        is_sound = is_sound and (tally.when is None or is_condition(tally.when))
+        if not is_sound or (tally.event is not None and task.events[tally.event].is_of_success):
+            yield "has a tally that cannot be computed"
 
 
 def _draw_flaws(task: Task) -> Iterator[str]:
@@ -257,10 +286,17 @@ def _variation_flaws(graph: Graph, task: Task) -> Iterator[str]:
 
 
 def _computes(
-    program: Program, readings: Container[int], measures: int = 0, commands: int = 0, draws: int = 0, each: bool = False
+    program: Program,
+    readings: Container[int],
+    measures: int = 0,
+    commands: int = 0,
+    draws: int = 0,
+    each: bool = False,
+    tallies: int = 0,
 ) -> bool:
     """True if a program has a value, and uses only these readings, measures, commands and, in a loop, the reading."""
     known = {"reading": readings, "measure": range(measures), "command": range(commands), "drawn": range(draws)}
+    known["tally"] = range(tallies)
     words = {*OPERATORS, "negate", "number", *known} - {*CHOICES} | ({"each"} if each else set())
     return (
         is_valid_program(program)

@@ -12,7 +12,8 @@ Octaves = Annotated[int, Quantity("a whole number up to 8", {"": 1.0}, low=0, hi
 Spread = Annotated[float, Quantity("a number above zero", {"": 1.0}, low=1e-6, high=1000.0)]
 Patience = Annotated[int, replace(GENERATIONS, low=0)]
 Rungs = Annotated[int, Quantity("a whole number up to 16", {"": 1.0}, low=0, high=16, whole=True)]
-Share = Annotated[float, Quantity("a share above 0 up to 1", {"": 1.0, "%": 0.01}, low=0.001, high=1.0)]
+SHARE = Quantity("a share above 0 up to 1", {"": 1.0, "%": 0.01}, low=0.001, high=1.0)
+Share = Annotated[float, SHARE]
 Founders = Annotated[int, Quantity("a whole number", {"": 1.0}, low=0, high=100_000, whole=True)]
 FEW_CHILDREN = 0.1  # of a population that is bred anew
 NEAR_WEIGHT = 0.01  # so near to another a weight does as that does

@@ -9,11 +9,11 @@ from typing import Any, TypeVar
 T = TypeVar("T")
 
 # An expression in postfix order: ("number", x), ("reading", index), ("each", 0), ("measure", index into the task's
-# measures), ("command", index of an actuator), ("drawn", index of a number that the task draws), or (operator, 0) with
-# one of OPERATORS or negate. A condition is one that ends in one of TRUTHS: 1 where it holds, 0 where not, NaN where
-# nobody can know. One of two values is (value, condition, "when", other value, "otherwise"): "when" makes NaN of what
-# is not finite and of an unknown condition, and inf, for which "otherwise" takes the other value, where the condition
-# does not hold.
+# measures), ("command", index of an actuator), ("drawn", index of a number that the task draws), ("tally", index of a
+# tally of the task), or (operator, 0) with one of OPERATORS or negate. A condition is one that ends in one of TRUTHS: 1
+# where it holds, 0 where not, NaN where nobody can know. One of two values is (value, condition, "when", other value,
+# "otherwise"): "when" makes NaN of what is not finite and of an unknown condition, and inf, for which "otherwise" takes
+# the other value, where the condition does not hold.
 Program = tuple[tuple[str, float | int], ...]
 
 Formula = tuple[tuple[str, float | int | str], ...]  # a program in which readings stand by their names

@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 from time import monotonic, sleep
 
 from mindrun.driver import DeviceError
-from mindrun.engine.engine import Engine
+from mindrun.engine.changes import ChangedEngine
 from mindrun.engine.promises import PromiseWatcher
 from mindrun.errors import MindError
 from mindrun.graph.bundle import Bundle, digest
@@ -27,6 +27,8 @@ from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.dry_run import DryRun, beginning, outcome, simulated_wiring
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
+from mindrun.robot.hand import NO_HAND, Hand, hand_on
+from mindrun.robot.keys import can_drive_by_keys
 from mindrun.robot.live_view import breakpoint_mistakes, live_view
 from mindrun.robot.loop import Loop, Rate
 from mindrun.robot.orders import Orders, with_orders
@@ -49,12 +51,13 @@ def run(options: argparse.Namespace, bundle: Bundle) -> int:
     line = StatusLine(lambda sentence: None, columns=lambda: None) if options.quiet else StatusLine(_print_error)
     _refuse_wrong_breakpoints(options, bundle.graph)
     wired = bundle.wiring.sensors if bundle.wiring and not options.dry else ()
-    orders = Orders(bundle.graph, [wire.sensor for wire in wired])
+    hand = hand_on(bundle.graph, options.master or bundle.graph.master, options.drive)
+    orders = Orders(bundle.graph, [wire.sensor for wire in wired], hand=hand)
     for said in options.order:
         orders.say(said)
     if not options.arm:
         line.tell("nothing will move: --arm lets it")
-    with orders.heard(line.tell):
+    with orders.heard(line.tell, bool(hand.held) and not options.view and can_drive_by_keys()):
         loop = (_dry if options.dry else _wired)(options, bundle, line, orders)
     line.tell(_summary(loop))
     return 0
@@ -86,7 +89,7 @@ def _wired(options: argparse.Namespace, bundle: Bundle, line: StatusLine, orders
         line.tell(f"{sensor} is reckoned from what {servo} is sent")
     with hold_devices(wiring) as held:
         wiring = with_orders(wiring, bundle.graph, bundle.graph.sensors, orders)
-        return drive(bundle, wiring, options, line.tell, held)
+        return drive(bundle, wiring, options, line.tell, held, hand=orders.hand)
 
 
 def _dry(options: argparse.Namespace, bundle: Bundle, line: StatusLine, orders: Orders) -> Loop:
@@ -101,7 +104,7 @@ def _dry(options: argparse.Namespace, bundle: Bundle, line: StatusLine, orders: 
         measured, wiring = measured_in_world(bundle.graph, master, task), simulated_wiring(bundle.graph, socket, master)
         wiring = with_orders(wiring, bundle.graph, measured, orders, socket)
         with run.shown():
-            loop = drive(bundle, wiring, options, line.tell, watch=run.watch, world=run)
+            loop = drive(bundle, wiring, options, line.tell, watch=run.watch, world=run, hand=orders.hand)
         with suppress(DeviceError):  # the run was as good without it
             for sentence in outcome(task, master, status(socket)):
                 line.tell(sentence)
@@ -126,7 +129,8 @@ def _summary(loop: Loop) -> str:
     faults = f", {loop.engine.faults} outputs not sent because a number was not finite" if loop.engine.faults else ""
     held = "; ".join(f"{count}: {why}" for why, count in loop.held.items())
     by_guardian = f", {loop.held.total()} because of the guardian ({held})" if held else ""
-    return f"{loop.pace}; {loop.stopped} at neutral because of a fault{by_guardian}{faults}"
+    by_nobody = f", {loop.alone} because nobody drove" if loop.alone else ""
+    return f"{loop.pace}; {loop.stopped} at neutral because of a fault{by_nobody}{by_guardian}{faults}"
 
 
 def _print_error(sentence: str) -> None:
@@ -135,15 +139,15 @@ def _print_error(sentence: str) -> None:
 
 def drive(
     bundle: Bundle, wiring: Wiring, options: argparse.Namespace, tell: Callable[[str], None], held: Sequence[int] = (),
-    watch: Callable[[Loop], bool] = lambda loop: True, world: DryRun | None = None,
+    watch: Callable[[Loop], bool] = lambda loop: True, world: DryRun | None = None, hand: Hand = NO_HAND,
 ) -> Loop:  # fmt: skip
     """Run a mind on a robot until a signal comes or the ticks are over; the loop as it ended.
 
-    `tell` gets sentences for people; the guardian inherits the descriptors `held`; `watch` sees the loop after each
-    tick, and says whether it goes on; `world` is that of a dry run. Where MindError is raised all is at neutral, too.
+    `tell` gets sentences; the guardian inherits the descriptors `held`; `watch` sees the loop after each tick, and says
+    whether it goes on; `world` is that of a dry run. Where MindError is raised all is at neutral, too.
     """
     graph, master = bundle.graph, options.master or bundle.graph.master
-    engine = Engine(bundle.policy, bundle.procedures, options.master)
+    engine = ChangedEngine(bundle.policy, bundle.procedures, options.master)
     sensors = known_sensors(wiring, graph)
     if missing := read_by(graph, master) - {*sensors}:
         raise MindError(f"{master} reads {', '.join(sorted(missing))}, which is not wired", "add it to robot.yaml")
@@ -151,14 +155,14 @@ def drive(
     servos = reckoned_servos(wiring, graph, plan)
     with ExitStack() as stack:
         stop = stack.enter_context(stopping(STOP_SECONDS * max(1.0, graph.tick)))
-        about = About.of(graph, digest(options.bundle), master, sensors)
+        about = replace(About.of(graph, digest(options.bundle), master, sensors), by_hand=hand.names)
         recorder = stack.enter_context(_recording(options, about, world, tell))
         stack.enter_context(refuse_success("; every actuator comes to neutral"))
         samplers = stack.enter_context(_sampling(wiring))
         guardian = stack.enter_context(Guardian(plan, inherited=held))
         senses = ReadingFilter(graph, sorted((*samplers, *servos), key=lambda each: sensors.index(each.wire.sensor)))
         loop = Loop(
-            engine, senses, guardian, Rate(graph.tick), options.arm, recorder, tell, servos=servos,
+            engine, senses, guardian, Rate(graph.tick), options.arm, recorder, tell, servos=servos, hand=hand,
             promises=PromiseWatcher(graph, master), stops_on_broken=wiring.on_broken == "neutral",
         )  # fmt: skip
         until = monotonic() + FIRST_READING_SECONDS

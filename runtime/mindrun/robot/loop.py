@@ -8,11 +8,12 @@ from time import monotonic, sleep
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.engine.engine import Engine
+from mindrun.engine.changes import ChangedEngine
 from mindrun.engine.promises import BY_INFLUENCE, HELD, NOT_JUDGED, PromiseWatcher
 from mindrun.graph.recording_header import BY_LOOP, NOT_STOPPED, by_guardian
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.guard import failing
+from mindrun.robot.hand import NO_HAND, Hand, Said
 from mindrun.robot.recording import Recorder
 from mindrun.robot.sensing import ReadingFilter
 from mindrun.robot.servos import ReckonedServo
@@ -72,13 +73,14 @@ class Rate:
 class Loop:
     """A mind in charge of a robot. `armed` lets the guardian move it; `tell` gets sentences as they become true.
 
-    It counts the ticks in which it `stopped` the robot, and the others in which the guardian `held` it, by the reason.
-    It watches `promises`: of one that is broken `tell` gets a sentence, and again once it has held. Where the robot
-    `stops_on_broken`, it is stopped while a skill acts against what it requires or maintains. The `servos` turn as they
-    are commanded, and say where they look.
+    It counts the ticks in which it `stopped` the robot because of a fault, those in which the `hand` had let go and
+    left it `alone`, and the others in which the guardian `held` it, by the reason. It watches `promises`: of one that
+    is broken `tell` gets a sentence, and again once it has held. Where the robot `stops_on_broken`, it is stopped while
+    a skill acts against what it requires or maintains. The `servos` turn as they are commanded, and say where they
+    look.
     """
 
-    engine: Engine
+    engine: ChangedEngine
     senses: ReadingFilter
     guardian: Guardian
     pace: Rate
@@ -93,6 +95,9 @@ class Loop:
     stops_on_broken: bool = False
     broken: set[int] = field(default_factory=set)
     servos: Sequence[ReckonedServo] = ()
+    hand: Hand = NO_HAND
+    alone: int = 0
+    let_go: bool = False
 
     def tick(self) -> None:
         """Wait until a tick is due, and do it; MindError where the mind or the guardian fails."""
@@ -108,11 +113,12 @@ class Loop:
         for name in self.faulty - sensed.why.keys():
             self.tell(f"{name} is fine again")
         self.faulty = {*sensed.why}
-        commands = self.engine.tick(sensed.readings)
+        said = self._said()
+        commands = self.engine.tick_with(sensed.readings, self.hand.influence(said))
         too_old = self.pace.clock() - time >= MAX_THINKING_TICKS * self.pace.tick  # to act on what was sensed then
         must_stop = self._broken(self.promises) if self.promises and self.promises.promises else False
-        stopped = sensed.must_stop or behind or too_old or must_stop
-        sent = self.neutral if stopped else commands
+        stopped = sensed.must_stop or behind or too_old or must_stop or said is None
+        sent = self.neutral if stopped or said is None else self.hand.exchanged(commands, said)
         self.guardian.send(sent.tolist(), self.armed and not stopped)  # unarmed, neutral is not slowed down by slew
         held = self.guardian.holds if self.armed and not stopped else ""  # as it had said when the tick was sent
         for servo in self.servos:
@@ -124,8 +130,17 @@ class Loop:
                 commands=commands, sent=sent,
             )  # fmt: skip
         self.ticks += 1
-        self.stopped += stopped
+        self.stopped += stopped and said is not None
+        self.alone += said is None
         self.held.update([held] * bool(held))
+
+    def _said(self) -> Said | None:
+        """The numbers of the hand in this tick, None where it has let go; telling where that has changed."""
+        said = self.hand.now()
+        if self.hand.held and (said is None) != self.let_go:
+            self.let_go = said is None
+            self.tell("nobody drives, and every actuator is at neutral" if self.let_go else "the hand drives")
+        return said
 
     def _broken(self, promises: PromiseWatcher) -> bool:
         """Tell of a promise that is broken in this tick, and again once it has held; True where one stops the robot."""

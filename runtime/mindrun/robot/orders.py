@@ -12,6 +12,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from math import isfinite
 from threading import Thread, current_thread, main_thread
 from time import monotonic, sleep
@@ -24,6 +25,8 @@ from mindrun.graph.graph import Graph, Sensor
 from mindrun.graph.wiring import SensorWire, Wiring
 from mindrun.robot.driver_support import OpenSensor
 from mindrun.robot.drivers.simulated import VALUE
+from mindrun.robot.hand import NO_HAND, Hand
+from mindrun.robot.keys import KeyDriving, drive_by_keys, key_by_key
 from mindrun.robot.order_client import ADDRESS, DONE, MAX_ORDER_BYTES, REFUSED
 from mindrun.robot.ownership import PEER
 from mindrun.robot.processes import let_go_in_children
@@ -39,20 +42,27 @@ MAX_AGE_SECONDS = 3600.0  # of a sample: an order that was said stays
 class Orders:
     """The orders that a mind takes, and what was said last of each. Any thread may say one, or ask.
 
-    Those that are `wired` in robot.yaml are said by their drivers alone.
+    Those that are `wired` in robot.yaml are said by their drivers alone. Numbers for what the `hand` holds are said in
+    the same way, and passed on to it.
     """
 
-    def __init__(self, graph: Graph, wired: Sequence[str] = (), clock: Callable[[], float] = monotonic) -> None:
+    def __init__(
+        self, graph: Graph, wired: Sequence[str] = (), clock: Callable[[], float] = monotonic, hand: Hand = NO_HAND
+    ) -> None:
         kinds = {sensor.name: sensor.kind for sensor in graph.sensors if sensor.kind.is_order}
         self.kinds: dict[str, Any] = {name: kind for name, kind in kinds.items() if name not in wired}
         self._wired = kinds.keys() - self.kinds
+        self.hand = hand
         self._clock = clock
         self._said: dict[str, tuple[float, float]] = {}
 
     def say(self, line: str) -> str:
         """Take an order; what it is now, in words. MindError where it is none that this mind takes."""
         name, value = self._order(line)
-        self._said[name] = value, self._clock()
+        if name in self.hand.held:
+            self.hand.say(name, value)
+        else:
+            self._said[name] = value, self._clock()
         return f"{name} is {value:g}"
 
     def now(self, name: str) -> float | None:
@@ -63,7 +73,8 @@ class Orders:
 
     def _order(self, line: str) -> tuple[str, float]:
         words = line.replace("=", " ", 1).split()
-        known = list(self.kinds)
+        kinds: dict[str, Any] = {**self.kinds, **self.hand.held}
+        known = list(kinds)
         if not known and not self._wired:
             raise MindError("this mind takes no orders", "in the mind: sensor wanted is order 1 to 7")
         if len(words) != 2:
@@ -72,7 +83,7 @@ class Orders:
         name, said = words
         if name in self._wired:
             raise MindError(f"{name} is wired in robot.yaml: what its device says counts")
-        if name not in self.kinds:
+        if name not in kinds:
             near = nearest(name, known)
             hint = f"did you mean {near}?" if near else f"there is {', '.join(known)}"
             raise MindError(f"there is no order {shortened(name)}", hint)
@@ -80,16 +91,19 @@ class Orders:
             value = float(said)
         except ValueError:
             value = float("nan")
-        why = self.kinds[name].refusal(value) if isfinite(value) else "an order is a number"
+        why = kinds[name].refusal(value) if isfinite(value) else "an order is a number"
         if why:
             raise MindError(f"{name} cannot be {shortened(said)}: {why}")
         return name, value + 0.0  # there is no -0
 
     @contextmanager
-    def heard(self, tell: Callable[[str], None]) -> Iterator[None]:
-        """Hear the standard input and the address of this process as long as this lasts; `tell` gets sentences."""
+    def heard(self, tell: Callable[[str], None], by_keys: bool = False) -> Iterator[None]:
+        """Hear the standard input and the address of this process as long as this lasts; `tell` gets sentences.
+
+        `by_keys`, the hand is driven by the keys of the terminal, and no lines are read there.
+        """
         with ExitStack() as stack:
-            if self.kinds:
+            if self.kinds or self.hand.held:
                 try:
                     listener = stack.enter_context(_listening())
                 except OSError as error:
@@ -98,7 +112,10 @@ class Orders:
                     Thread(target=self._answer, args=(listener,), name="orders", daemon=True).start()
                 if current_thread() is main_thread():  # who reads in the background of a terminal would be stopped
                     signal.signal(signal.SIGTTIN, signal.SIG_IGN)
-                Thread(target=self._read, args=(tell,), name="typed orders", daemon=True).start()
+                if by_keys:
+                    stack.enter_context(key_by_key())
+                reading = partial(drive_by_keys, KeyDriving(self.hand)) if by_keys else self._read
+                Thread(target=reading, args=(tell,), name="typed orders", daemon=True).start()
             yield
 
     def _answer(self, listener: socket.socket) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.engine.engine import Engine
+from mindrun.engine.changes import UNCHANGED, ChangedEngine
 from mindrun.graph.bundle import digest, read_bundle
 from mindrun.graph.skill_sets import reachable
 from mindrun.numbers.short_repr import ShortRepr
@@ -36,10 +36,12 @@ def replay_recording(
     path, file = Path(recording), Path(bundle)
     mind = read_bundle(file)
     about, _ = read(path)
-    return replay(path, digest(file), Engine(mind.policy, mind.procedures, about.master), told)
+    return replay(path, digest(file), ChangedEngine(mind.policy, mind.procedures, about.master), told)
 
 
-def replay(path: Path, bundle: str, engine: Engine, told: Callable[[int], None] = lambda ticks: None) -> Replayed:
+def replay(
+    path: Path, bundle: str, engine: ChangedEngine, told: Callable[[int], None] = lambda ticks: None
+) -> Replayed:
     """Compute the ticks of a recording with a bundle of that SHA-256; RecordingError where it was made with another."""
     about, parts = read(path)
     about.refuse_another(bundle, engine.graph)
@@ -64,19 +66,23 @@ class DifferenceError(RecordingError):
         self.tick, self.what = tick, what
 
 
-def computed_again(path: Path, about: About, rows: Iterable[Any], engine: Engine, first: int = 1) -> Iterator[Any]:
+def computed_again(
+    path: Path, about: About, rows: Iterable[Any], engine: ChangedEngine, first: int = 1
+) -> Iterator[Any]:
     """Rows of a recording, computed again by an engine that has computed those before; the first is number `first`.
 
-    With each the engine has what was read, of virtual sensors and memories too, and who had influence. Where a row says
-    the first tick again, the mind was begun anew. DifferenceError where commands or influence are not those that were
-    recorded, to the bit.
+    With each the engine has what was read, of virtual sensors and memories too, and who had influence; what a hand gave
+    is taken from the row. Where a row says the first tick again, the mind was begun anew. DifferenceError where
+    commands or influence are not those that were recorded, to the bit.
     """
     skills = tuple(skill.name for skill in reachable(engine.graph, about.master))
     reached = [about.skills.index(name) for name in skills]  # that others have no influence was written as 0 once
+    by_hand = [about.skills.index(name) for name in about.by_hand if name in about.skills]
     for number, row in enumerate(rows, first):
         if row["tick"] == 0:
             engine.reset()
-        commands = engine.tick(row["readings"])
+        given = {place: float(row["influence"][place]) for place in by_hand}
+        commands = engine.tick_with(row["readings"], {**UNCHANGED, "influence": given})
         what = _difference(about.actuators, commands, row["commands"])
         what = what or _difference(skills, engine.influence[reached], row["influence"][reached])
         if what:

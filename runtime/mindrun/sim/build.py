@@ -33,10 +33,10 @@ def build(
     library: Array,
 ) -> tuple[Tables, Sizes]:
     """The tables of a task under a master; `addresses` are those of the compiled procedures, by skill."""
-    programs, parameters = Programs(first_draw=len(task.measures)), Parameters(graph, task)
+    programs, parameters = Programs(task_rows.first_numbers(task)), Parameters(graph, task)
     reached = reachable(graph, master)
     skills, most = skill_rows(graph, reached, weights, learners, addresses, programs)
-    rewards, ends = task_rows.reward_rows(task, programs), task_rows.end_rows(task, programs)
+    judging = task_rows.judging_rows(task, programs)
     contents = task_rows.content_rows(graph, task, parameters, programs)
     used, aside = used_sensors(graph, reached, task)
     exact = promised_sensors(graph, reached, used + aside)
@@ -51,7 +51,7 @@ def build(
         codes=np.array(programs.rows, CODE), actuators=driven, memories=memory_rows(graph),
         loose=task_rows.loose_rows(task, graph.tick, parameters), options=task_rows.option_rows(task),
         walls=np.array(walls, np.float64).reshape(-1, BOX_COLUMNS),
-        measures=measures, events=events, ends=ends, rewards=rewards,
+        measures=measures, events=events, **judging,
         makings=parameters.makings(), choices=np.array(parameters.choices, np.float64),
         measured=rows_of(graph, used + aside + exact), library=library,
         parameters=parameters.table(),  # last: all others add to them

@@ -15,7 +15,7 @@ from mindrun.sim.arrays import Block, table
 PUSH, STEERING, GRIPPER, IDLE, SERVO = range(5)
 ITEM, ZONE, POWER, BOX, BALL, WALKER = range(6)
 STAYS, MOVES, VANISHES = range(3)
-PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE, ITS_REWARD, APART, DRAWN_NUMBER = range(8)
+PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE, ITS_REWARD, APART, DRAWN_NUMBER, TALLIED, TIME = range(10)
 REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION, SUCCESS, ITS_END, LEAVE = range(8)
 # How a number of a run comes about; before the world: CHOSEN and what comes after it.
 CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, TIMES, OVER, INVERSE, DAMPING, CHOSEN, BETWEEN, MADE = range(11)
@@ -36,7 +36,7 @@ ACTUATOR_CODES = {
 THING_CODES = {"item": ITEM, "zone": ZONE, "power": POWER, "box": BOX, "ball": BALL, "walker": WALKER}
 MEASURE_CODES = {
     "progress": PROGRESS, "advance": ADVANCE, "retreat": RETREAT, "forward": FORWARD, "change": CHANGE,
-    "its reward": ITS_REWARD, "distance": APART,
+    "its reward": ITS_REWARD, "distance": APART, "time": TIME,
 }  # fmt: skip
 EVENT_CODES = {
     "reach": REACH, "delivery": DELIVERY, "visit": VISIT, "collision": COLLISION, "exhaustion": EXHAUSTION,
@@ -104,7 +104,8 @@ MAKING = _columns(i8="row code length")
 PRESENCE = _columns(i8="thing box boxes when whens")
 EVENT = _columns(i8="kind thing things to tos arrival columns rows board after window left", f8="patch")
 END = _columns(i8="event times when whens succeeds is_end box boxes")
-REWARD = _columns(i8="code length on each eachs when whens")
+TALLY = _columns(i8="event when whens code length longest row")
+REWARD = _columns(i8="code length on each eachs when whens last")
 WORLD = _columns(
     i8="linear angular friction mass moment mass_inv moment_inv is_round is_placed is_faced ticks rays master battery "
     "number turn",
@@ -180,5 +181,6 @@ class Tables(Block):
     measures: Array = table(MEASURES)
     events: Array = table(EVENT)
     ends: Array = table(END)
+    tallies: Array = table(TALLY)
     rewards: Array = table(REWARD)
     library: Array = table(U8)  # addresses of Chipmunk's functions

@@ -25,19 +25,19 @@ VARYING_COLUMNS = {
 class Programs:
     """Collects postfix programs: `rows` of (operation, argument, number), and the `depth` of the stack they need.
 
-    A number that the task draws is a measure, from number `first_draw` on.
+    What a task tallies and draws are measures, from the number on that `first` says of each.
     """
 
+    first: Mapping[str, int] = field(default_factory=dict)
     rows: list[tuple[int, int, float]] = field(default_factory=list)
     depth: int = 1
-    first_draw: int = 0
 
     def add(self, program: Program) -> tuple[int, int]:
         """Add a program; return the row at which it begins, and its length."""
         first, depth = len(self.rows), 0
         for name, value in program:
-            if name == "drawn":
-                name, value = "measure", self.first_draw + value
+            if name in self.first:
+                name, value = "measure", self.first[name] + value
             op = OPERATIONS[name]
             if op == NEGATE and len(self.rows) > first and self.rows[-1][0] == NUMBER:
                 self.rows[-1] = NUMBER, 0, -self.rows[-1][2]

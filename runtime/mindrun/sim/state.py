@@ -133,6 +133,8 @@ class JudgeState(Block):
     arrived: Array = rows("arrivals", kind=U1)  # as `delivered`, of zones or things of one name
     lines: Array = rows("rewards")  # the sum of each reward line
     counts: Array = rows("events", kind=I8)  # how often each happened in this run
+    tallies: Array = rows("tallies")
+    stretches: Array = rows("tallies")  # how often what each counts has happened while its condition went on to hold
     left: Array = rows("windows", kind=I8)  # in how many ticks, this one too, an event may come after another
     # for this tick
     measures: Array = rows("measures")

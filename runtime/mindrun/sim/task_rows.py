@@ -235,7 +235,7 @@ def walker_rows(task: Task, dt: float, parameters: Parameters, programs: Program
 
 
 def measure_rows(task: Task, parameters: Parameters) -> tuple[Array, int]:
-    """Rows of MEASURES, then of what the task draws, and how many changes of thrust are remembered."""
+    """Rows of MEASURES, then of tallies and of what the task draws, and how many changes of thrust are remembered."""
     places = rows_by_name(task)
     rows: list[Row] = []
     ring = 0
@@ -246,6 +246,7 @@ def measure_rows(task: Task, parameters: Parameters) -> tuple[Array, int]:
             "over": measure.over, "ring": ring if measure.over else 0, "beyond": measure.beyond,
         })  # fmt: skip
         ring += measure.over
+    rows += [{"kind": codes.TALLIED}] * len(task.tallies)
     rows += [{"kind": codes.DRAWN_NUMBER, "row": row} for row in parameters.given]
     return records(rows, codes.MEASURES), ring
 
@@ -271,6 +272,17 @@ def event_rows(task: Task) -> tuple[Array, int, int]:
     return records(rows, codes.EVENT), board, arrivals
 
 
+def first_numbers(task: Task) -> dict[str, int]:
+    """The numbers of the measures that its first tally, and the first number that it draws, are to the lanes."""
+    return {"tally": len(task.measures), "drawn": len(task.measures) + len(task.tallies)}
+
+
+def judging_rows(task: Task, programs: Programs) -> dict[str, Array]:
+    """The tables of what a task rewards, what ends it and what it tallies; their programs go to `programs`."""
+    rewards, ends = reward_rows(task, programs), end_rows(task, programs)
+    return {"rewards": rewards, "ends": ends, "tallies": tally_rows(task, programs)}
+
+
 def end_rows(task: Task, programs: Programs) -> Array:
     """Rows of END; their conditions go to `programs`."""
     rows, boxes = list[Row](), {"": NOWHERE, **boxes_by_name(task)}
@@ -284,13 +296,26 @@ def end_rows(task: Task, programs: Programs) -> Array:
     return records(rows, codes.END)
 
 
+def tally_rows(task: Task, programs: Programs) -> Array:
+    """Rows of TALLY; their conditions go to `programs`."""
+    rows: list[Row] = [
+        {
+            "event": -1 if tally.event is None else tally.event, "row": len(task.measures) + i,
+            "longest": tally.longest, **programs.columns(tally.when, "when", "whens"),
+            **programs.columns(tally.value, "code", "length"),
+        }
+        for i, tally in enumerate(task.tallies)
+    ]  # fmt: skip
+    return records(rows, codes.TALLY)
+
+
 def reward_rows(task: Task, programs: Programs) -> Array:
     """Rows of REWARD; what they pay, and where, goes to `programs`."""
     rows: list[Row] = []
     for reward in task.rewards:
         each, eachs = reward.each or (0, 0)
         rows.append({
-            "on": -1 if reward.on is None else reward.on, "each": each, "eachs": eachs,
+            "on": -1 if reward.on is None else reward.on, "each": each, "eachs": eachs, "last": reward.last,
             **programs.columns(reward.amount, "code", "length"), **programs.columns(reward.when, "when", "whens"),
         })  # fmt: skip
     return records(rows, codes.REWARD)

@@ -50,6 +50,11 @@ def new_file(text: str) -> Path:
     return Path(text)
 
 
+def listed_names(text: str) -> tuple[str, ...]:
+    """Names with commas between them, each once."""
+    return tuple(dict.fromkeys(name.strip() for name in text.split(",")))
+
+
 def emptiness(words: Sequence[str]) -> str:
     """The flaw of a command line, given as its words, of which one is empty or blank; "" where none is.
 

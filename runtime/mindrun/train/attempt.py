@@ -30,6 +30,7 @@ from mindrun.train.scoring import (
     mark,
     marks_of,
     measured,
+    with_hard,
 )
 
 SEGMENT_SECONDS = 2.0  # after which a segment ends with the generation at work
@@ -92,7 +93,8 @@ def generation(course: Course, scorer: Scorer, number: int, state: AttemptState)
     key = course.seed, number, state.population.generation
     genomes = ask(state.population, learner, course.start, scorer.draw, breeding_generator(*key))
     ticks = run_ticks(lesson, scorer.task, state.population.generation)
-    marks = mark(scorer, genomes, layouts(*key, learner.layouts), learner.lowest, ticks)
+    seeds = with_hard(layouts(*key, learner.layouts), lesson.hard, *key)
+    marks = mark(scorer, genomes, seeds, learner.lowest, ticks)
     population = tell(state.population, learner, course.start, genomes, marks.scores)
     now = replace(state, population=population, told_apart=state.told_apart or are_different(marks.scores))
     done, reevaluated = [marks], None

@@ -12,7 +12,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph.graph import Need, Task
+from mindrun.graph.graph import HardLayouts, Need, Task
 from mindrun.graph.run_scores import Scores as RunScores
 from mindrun.train.population import Genomes, Scores
 
@@ -30,6 +30,7 @@ class Purpose(IntEnum):
     RUNG = 5
     RETENTION = 6
     ENOUGH = 7
+    HARD = 8
 
 
 def breeding_generator(seed: int, attempt: int, generation: int) -> np.random.Generator:
@@ -39,6 +40,19 @@ def breeding_generator(seed: int, attempt: int, generation: int) -> np.random.Ge
 def layouts(seed: int, attempt: int, generation: int, count: int, purpose: Purpose = Purpose.LAYOUTS) -> Seeds:
     """The seeds [count] of the worlds on which one generation is scored, the same for every genome."""
     return _sequence(seed, attempt, generation, purpose).generate_state(count, np.uint64).astype(np.uint64)
+
+
+def with_hard(seeds: Seeds, hard: HardLayouts | None, seed: int, attempt: int, generation: int) -> Seeds:
+    """The seeds [count] of one generation, some of the hard ones in the place of the first.
+
+    So many are hard as the share says, or one more as often as it takes for that share in the mean of all generations.
+    """
+    if hard is None:
+        return seeds
+    rng = np.random.default_rng(_sequence(seed, attempt, generation, Purpose.HARD))
+    count = min(len(seeds), int(hard.share * len(seeds) + rng.random()))
+    chosen = rng.choice(len(hard.seeds), count, replace=count > len(hard.seeds))
+    return np.concatenate([np.array([int(hard.seeds[each]) for each in chosen], np.uint64), seeds[count:]])
 
 
 def _sequence(seed: int, attempt: int, generation: int, purpose: Purpose) -> np.random.SeedSequence:

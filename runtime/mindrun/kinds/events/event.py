@@ -59,6 +59,7 @@ class EventKind(AboutThing):
     needs_walls = False  # whether it can be computed in an arena alone
     is_outside = False  # whether an environment says when it happens
     is_of_success = False  # whether an end of the task makes it happen
+    is_mishap = False  # whether it is none of what a robot is to bring about
     is_of_battery = False  # whether it depends on the battery, of which it names no sensor
 
     @property
@@ -96,6 +97,8 @@ class EventKind(AboutThing):
 @kind("event", "collision")
 class Collision(EventKind):
     """The body, or the item it holds, begins to touch an obstacle or a wall; to push a box or ball is no collision."""
+
+    is_mishap = True
 
     def prevented(self, world: WorldFacts) -> Hindrance | None:
         if world.has_fixed:

@@ -17,6 +17,7 @@ class MeasureKind(AboutThing):
 
     is_outside = False  # whether an environment says what it is
     interval = (-inf, inf)  # its least and its greatest value
+    way = 0  # 1 where it is only of the way toward a thing, -1 where only of the way back
     over = 0  # the number of ticks whose changes of commands the lanes keep for it
     beyond = 0.0  # the share of a wheel's travel beyond which such a change counts
 
@@ -39,6 +40,7 @@ class Advance(MeasureKind):
     toward: ThingName
     of: ThingName = left_out("")
 
+    way = 1
     interval = (0.0, inf)
 
 
@@ -49,20 +51,28 @@ class Retreat(MeasureKind):
     from_: ThingName
     of: ThingName = left_out("")
 
+    way = -1
     interval = (0.0, inf)
 
 
 @kind("measure", "distance")
 class Apart(MeasureKind):
-    """Distance of a thing to another, from middle to middle, in world units; of several, of the two that are nearest.
+    """Distance of the robot, or of a thing, to another, from middle to middle; of several, of the two that are nearest.
 
-    0 where all of one name have vanished.
+    In world units; 0 where all of one name have vanished.
     """
 
     to: ThingName
-    of: ThingName
+    of: ThingName = left_out("")
 
     interval = (0.0, inf)
+
+
+@kind("measure", "time")
+class Time(MeasureKind):
+    """How many ticks the run has lasted, this one too: 1 in its first."""
+
+    interval = (1.0, inf)
 
 
 @kind("measure", "forward")

@@ -29,6 +29,8 @@ def judge(tables: Tables, state: State, lanes: int, clock: int, interrupt: int) 
     for i in range(len(tables.events)):
         for lane in range(lanes if judged.happened[i] > 0 else 0):
             judged.counts[i, lane] += int(judged.events[i, lane])
+    if len(tables.tallies) > 0:
+        keep_tallies(tables, state, lanes)
     for i in range(len(tables.ends)):
         meet_end(tables, state, tables.ends[i], i, lanes, interrupt)
     for i in range(len(tables.rewards)):
@@ -54,6 +56,28 @@ def keep_soon(tables: Tables, state: State, i: int, lanes: int) -> int:
         judged.events[i, lane] = judged.events[i, lane] if left > 0 else 0.0
     count: int = count_positive(judged.events[i], lanes)
     return count
+
+
+@unit_where(lambda tables: len(tables.tallies) > 0)
+def keep_tallies(tables: Tables, state: State, lanes: int) -> None:
+    """Add what happened in this tick to the tallies, each after those that its condition may be about."""
+    judged, values = state.judge, state.mind.stack[0]
+    for i in range(len(tables.tallies)):
+        tally = tables.tallies[i]
+        if tally.whens > 0:
+            run_program(tables, state, tally.when, tally.whens, 0, lanes, True)
+        for lane in range(lanes):
+            judged.paid[lane] = 1.0 if tally.whens == 0 or values[lane] > 0.0 else 0.0
+        if tally.length > 0:
+            run_program(tables, state, tally.code, tally.length, 0, lanes, True)
+        for lane in range(lanes):
+            is_open = judged.paid[lane] > 0.0
+            times = values[lane] if tally.length > 0 else judged.events[tally.event, lane] if tally.event >= 0 else 1.0
+            times = times if is_open else 0.0
+            judged.stretches[i, lane] = stretch = times + (judged.stretches[i, lane] if is_open else 0.0)
+            before = judged.tallies[i, lane]
+            judged.tallies[i, lane] = max(before, stretch) if tally.longest else before + times
+            judged.measures[tally.row, lane] = judged.tallies[i, lane]
 
 
 @unit_where(lambda tables: tables.world[0]["battery"] > 0)
@@ -124,7 +148,10 @@ def reward(tables, state, line, total, lanes):
         if not is_always and find_paid(tables, state, line, paid, each, lanes) == 0:
             continue
         run_program(tables, state, line.code, line.length, each, lanes, True)
-        if is_always:
+        if line.last:
+            for lane in range(lanes):
+                total[lane] = amount[lane] if is_always or paid[lane] > 0.0 else total[lane]
+        elif is_always:
             for lane in range(lanes):
                 total[lane] += amount[lane]
         else:
@@ -211,9 +238,12 @@ def take_measures(tables, state, lanes, clock):
         elif measure.kind == codes.DRAWN_NUMBER:
             for lane in range(lanes):
                 out[lane] = world.numbers[measure.row, lane]
+        elif measure.kind == codes.TIME:
+            for lane in range(lanes):
+                out[lane] = world.tick[lane] + 1
         elif measure.ofs > 0:
             compare_places(tables, state, i, lanes, 0)
-        elif measure.kind != codes.ITS_REWARD:  # which stands there already
+        elif measure.kind != codes.ITS_REWARD and measure.kind != codes.TALLIED:  # which stand there already
             progress(out, judged.paid, world.body, world.things, measure, lanes)
 
 
@@ -256,7 +286,7 @@ def part_of(closed, kind):
 def progress(out, now, body, things, measure, lanes):
     """Write the distance to the nearest of the things that this tick closed, or its positive or negative part.
 
-    0 where all have vanished. `now` is room for the square of what is left of the distance.
+    Or what is left of it. 0 where all have vanished. `now` is room for the square of what is left of the distance.
     """
     before = out
     before[:lanes], now[:lanes] = np.nan, np.nan
@@ -268,7 +298,8 @@ def progress(out, now, body, things, measure, lanes):
             before[lane] = away if (away < least) | (least != least) else least
             now[lane] = here if (here < less) | (less != less) else less
     for lane in range(lanes):
-        closed = part_of(before[lane] - np.sqrt(now[lane]), measure.kind)
+        left = np.sqrt(now[lane])
+        closed = left if measure.kind == codes.APART else part_of(before[lane] - left, measure.kind)
         out[lane] = 0.0 if np.isnan(closed) else closed
 
 

@@ -155,6 +155,7 @@ def reset(tables, state, lane):
     for i in range(len(tables.memories)):
         mind.readings[tables.memories[i].row, lane] = tables.memories[i].start
     judge.lines[:, lane], judge.left_changes[:, lane], judge.right_changes[:, lane] = 0.0, 0.0, 0.0
+    judge.tallies[:, lane], judge.stretches[:, lane] = 0.0, 0.0
     judge.counts[:, lane], judge.visited[lane], judge.arrived[:, lane], judge.left[:, lane] = 0, 0, 0, 0
     for i in range(len(tables.events)):
         if tables.events[i].kind == codes.VISIT:  # the patch that the robot starts in
@@ -188,6 +189,7 @@ def move(state, source, target):
     for rows in (
         world.body, world.heading, world.things, world.trail, world.loose, world.numbers, world.direction,
         world.swivel, sight.nearby, sight.anchor, judge.left_changes, judge.right_changes, judge.lines,
+        judge.tallies, judge.stretches,
     ):  # fmt: skip
         copy_lane(rows, source, target)
     for rows in (world.reached, world.delivered, judge.arrived):
