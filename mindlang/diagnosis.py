@@ -136,9 +136,9 @@ def machine_code() -> Iterator[DoctorFinding]:
     else:
         mend = "let XDG_CACHE_HOME name a folder that can be written"
         yield DoctorFinding("compiler cache", "wrong", "no folder can be written: every start compiles anew", mend)
-    if warmup.is_native(units):
+    if all(map(cache.is_native, units)):
         yield DoctorFinding("simulator", "ok", f"compiled for {target().processor}")
-    elif warmup.is_there(units):
+    elif not cache.missing(units):
         seen = "shipped for any processor of this kind; made for this one while the first lesson runs"
         yield DoctorFinding("simulator", "ok", seen)
     else:

@@ -18,8 +18,8 @@ from math import fsum
 from operator import attrgetter
 
 import numpy as np
-from mindrun.engine.think import clamped
 from mindrun.errors import MindError
+from mindrun.numbers.arithmetic import clamp
 from mindrun.numbers.arrays import Bools, Doubles
 from numpy.typing import NDArray
 
@@ -206,7 +206,7 @@ def _ends(flows: EdgeFlows, target: Sink, carried: EdgeFlow) -> _Ends:
         total = np.where(driven, weight.sum(axis=0), 0.0)
         parts = np.where(driven, weight / total, 0.0)
         gain = np.where(driven, product / (1.0 if is_skill else total), 0.0)
-    commands = np.array([value if is_skill else clamped(value) for value in np.where(driven, engine, NOTHING)], float)
+    commands = np.array([value if is_skill else clamp(value) for value in np.where(driven, engine, NOTHING)], float)
     sources = tuple(flows.links[edge].source for edge in edges)
     return _Ends(edges, sources, parts, target, values, behind, gain, total, commands, driven)
 

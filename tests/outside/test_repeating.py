@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 gymnasium = pytest.importorskip("gymnasium")
 
 from mindrun.sim.outside.making import BrokenEnvironmentError  # noqa: E402
-from mindrun.sim.outside.repeating import RecordingStepper  # noqa: E402
+from mindrun.sim.outside.rollout import RecordingStepper  # noqa: E402
 from mindrun.sim.outside.stepper import LocalStepper, number_of, truth_of  # noqa: E402
 
 NAME, STEPS, PLACES = "Drawn-v0", 12, [("", 0)]

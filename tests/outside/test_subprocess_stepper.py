@@ -14,7 +14,8 @@ pytest.importorskip("gymnasium")
 import numpy as np
 from mindrun.errors import MindError
 from mindrun.graph.policy import Policy
-from mindrun.sim.outside import repeating, subprocess_stepper
+from mindrun.sim.outside import rollout as environment_rollout
+from mindrun.sim.outside import subprocess_stepper
 from mindrun.sim.outside.rollout import EnvironmentRollout
 from mindrun.sim.outside.stepper import EnvironmentRun, LocalStepper
 from mindrun.sim.outside.subprocess_stepper import VARIABLE, SubprocessStepper, is_own, stepper_for
@@ -106,7 +107,7 @@ def test_a_run_that_another_mind_takes_over_is_stepped_where_it_was_begun() -> N
 
 
 def test_a_check_of_what_is_slow_ends_and_says_that_nothing_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(repeating, "CHECKED_SECONDS", 0.0)
+    monkeypatch.setattr(environment_rollout, "CHECKED_SECONDS", 0.0)
     name = "tests.outside.kept:tests/Line-v0"
     rollout = minds.rollout_of(minds.text(scene=name), steppers=SubprocessStepper)
     rollout.make_again(minds.genomes(rollout, 1)[0], 1)

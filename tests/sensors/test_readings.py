@@ -19,10 +19,9 @@ from mindrun.kinds.sensors.nearest import Bearing, Distance, Light
 from mindrun.kinds.sensors.rays import Eye
 from mindrun.kinds.sensors.sensor import Physical, SensorKind
 from mindrun.kinds.sensors.waves import Clock
-from mindrun.numbers.arithmetic import DISTANCE, LOOSE_ROWS, THING_ROWS
+from mindrun.numbers.arithmetic import DISTANCE, FIRST_RAY, FRAME_ROWS, LOOSE_ROWS, THING_ROWS
 from mindrun.numbers.trigonometry import cosine, sine
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.state import FIRST_RAY, FRAME_ROWS
 
 from tests.draws import cases
 from tests.hierarchies import WORLDLY

@@ -75,15 +75,15 @@ def _robot(random: Random, size: float) -> tuple[BodyKind, Sequence[object]]:
     own = {"density": among(random, 0.05, 20), "friction": random.choice([0.0, 0.2, 1.5])}
     own |= {"linear_damping": lost, "angular_damping": slowed}
     thrust = size * size * among(random, 1, 1e5)
-    wheels = Wheel("left", 0.5, thrust), Wheel("right", 0.5, thrust)
-    thrusters = Thruster(0.5, (0.0, 0.0), 0.3, thrust), Thruster(0.5, (0.0, 0.1), pi / 2, thrust)
+    wheels = Wheel("left", 0.5, thrust=thrust), Wheel("right", 0.5, thrust=thrust)
+    thrusters = Thruster(0.5, (0.0, 0.0), 0.3, thrust=thrust), Thruster(0.5, (0.0, 0.1), pi / 2, thrust=thrust)
     rectangle = size, round(size * among(random, 0.1, 1), 4)
     return random.choice(
         [
             (Disc(size, **own), wheels),
             (Disc(size, **own), wheels),
             (Box(rectangle, **own), wheels),
-            (Car(rectangle, 0.6, **own), (Motor(0.5, thrust), Steering(0.5, 0.7))),
+            (Car(rectangle, 0.6, **own), (Motor(0.5, thrust=thrust), Steering(0.5, 0.7))),
             (Holonomic(size, **own), thrusters),
         ]
     )

@@ -108,7 +108,7 @@ def test_an_item_behind_is_never_taken() -> None:
     """It lies beside the robot, which turns until it is ahead: taken then, and only then."""
     taken = 0
     for seed in range(12):
-        things = (Thing("object", Item(Span(1.0, 1.0), Span(1.7, 1.7))),)
+        things = (Thing("object", Item(Span(1.0, 1.0), away=Span(1.7, 1.7))),)
         still = mind(rule("Top"), actuators=(*wheels(0.4, 0.6), Actuator("claw", Gripper(0.9))))
         graph = replace(still, tasks=(task(60, things=things),))
         run = trace(Rollout(Policy(graph, {}), "World", "Top"), seed)
@@ -127,7 +127,10 @@ def test_an_item_behind_is_never_taken() -> None:
 
 def test_the_first_event_that_ends_a_run_is_the_one_that_is_told() -> None:
     """Two in one tick: the first in the order of the task."""
-    things = (Thing("home", Zone(Span(9.0, 9.0), Span(0.0, 1.0))), Thing("plug", Power(Span(9.0, 9.0), Span(0.0, 1.0))))
+    things = (
+        Thing("home", Zone(Span(9.0, 9.0), away=Span(0.0, 1.0))),
+        Thing("plug", Power(Span(9.0, 9.0), away=Span(0.0, 1.0))),
+    )
     events = (Reach("plug"), Reach("home"))
     for ends, first in (((End(0), End(1)), 0), ((End(1), End(0)), 0), ((End(1, 2), End(1)), 1)):
         graph = replace(mind(rule("Top")), tasks=(task(9, things=things, events=events, ends=ends, counts=(0, 1)),))
@@ -149,7 +152,10 @@ def test_lanes_that_close_ranks_keep_what_waits() -> None:
         actuators=wheels(0.2, 0.9, delay=9),
     )
     bearing = replace(base.sensors[0], kind=Bearing("object", noise=0.1, every=2, delay=3))
-    things = (Thing("object", Item(Span(3.0, 3.0), Span(3.0, 9.0))), Thing("rock", Obstacle(Span(1.0, 2.0), count=5)))
+    things = (
+        Thing("object", Item(Span(3.0, 3.0), away=Span(3.0, 9.0))),
+        Thing("rock", Obstacle(Span(1.0, 2.0), count=5)),
+    )
     events = (Visit("patch", 3.0), Reach("object"))
     rewards = (Reward("", (("number", 1.0),), 0), Reward("", (("reading", 0),), None))
     world = task(300, scene=Arena(30.0), things=things, events=events, ends=(End(1),), rewards=rewards, counts=(0,))
@@ -233,9 +239,9 @@ def test_everything_is_placed_clear_of_everything(scene: Plain | Arena) -> None:
     """As far from the robot as is said, with its width free around obstacles, nothing on anything, all inside."""
     things = (
         Thing("stone", Obstacle(Span(1.0, 4.0), count=4, away=Span(5.0, 25.0))),
-        Thing("object", Item(Span(1.0, 3.0), Span(6.0, 12.0))),
+        Thing("object", Item(Span(1.0, 3.0), away=Span(6.0, 12.0))),
         Thing("home", Zone(Span(4.0, 4.0))),
-        Thing("coin", Item(Span(2.0, 2.0), Span(8.0, 9.0))),
+        Thing("coin", Item(Span(2.0, 2.0), away=Span(8.0, 9.0))),
     )
     graph = replace(mind(rule("Top"), actuators=(CLAW,)), tasks=(task(1, scene=scene, things=things),))
     spans = [(6.0, 12.0), (10.0, np.inf if isinstance(scene, Arena) else 40.0), (8.0, 9.0)]
@@ -297,7 +303,7 @@ def test_no_obstacle_stands_on_what_has_a_place() -> None:
 def test_things_of_any_size_stand_beside_each_other() -> None:
     """The small and the large, as close as they come."""
     sizes = (0.5, 9.0, 1.0, 7.0, 2.0)
-    things = tuple(Thing(f"t{i}", Zone(Span(size, size), Span(6.0, 14.0))) for i, size in enumerate(sizes))
+    things = tuple(Thing(f"t{i}", Zone(Span(size, size), away=Span(6.0, 14.0))) for i, size in enumerate(sizes))
     graph = replace(mind(rule("Top")), tasks=(task(1, things=things),))
     closest = np.inf
     for seed in range(40):

@@ -65,18 +65,16 @@ DELAY = st.sampled_from([0, 0, 1, 2, 5])
 THRUST = st.sampled_from([80.0, 80.0, 200.0, 3000.0, 15.0, -60.0])
 STARTS = st.sampled_from([0.0, 0.0, 0.3, 0.9])
 NOISE, SLIP = st.sampled_from([0.0, 0.0, 0.1]), st.sampled_from([0.0, 0.0, 0.3])
-WHEELS = st.builds(Wheel, st.sampled_from(["left", "right"]), NEUTRAL, THRUST, DELAY, NOISE, SLIP, STARTS)
-MOTORS = st.builds(Motor, NEUTRAL, THRUST, DELAY, NOISE, SLIP, STARTS)
+PUSHING = {"thrust": THRUST, "delay": DELAY, "noise": NOISE, "slip": SLIP}
+WHEELS = st.builds(Wheel, st.sampled_from(["left", "right"]), NEUTRAL, starts=STARTS, **PUSHING)
+MOTORS = st.builds(Motor, NEUTRAL, starts=STARTS, **PUSHING)
 STEERINGS = st.builds(Steering, NEUTRAL, st.sampled_from([0.5, 1.2, 0.0]), DELAY, NOISE)
 THRUSTERS = st.builds(
     Thruster,
     NEUTRAL,
     st.sampled_from([(0.0, 0.0), (0.0, -1.0), (-0.5, 1.0), (1.0, 0.0)]),
     st.sampled_from([0.0, 1.0, -pi / 2, 4.0]),
-    THRUST,
-    DELAY,
-    NOISE,
-    SLIP,
+    **PUSHING,
 )
 CLAWS = st.builds(Gripper, st.sampled_from([0.0, 0.5, 0.9, 1.0]), st.sampled_from([1.5, 4.0]), DELAY, NOISE)
 SERVOS = st.builds(Servo, NEUTRAL, DELAY, st.sampled_from([pi / 2, 0.0, 3.0]), st.sampled_from([2 * pi, 0.1, 0.5]))

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from mindrun.cli import doctor, tool_parser
-from mindrun.sim import cache, warmup
+from mindrun.sim import cache
 
 from mindlang import diagnosis, physics_check
 from mindlang.diagnosis import DoctorFinding
@@ -74,8 +74,8 @@ def test_a_cache_that_cannot_be_written(mindc: Call, monkeypatch: pytest.MonkeyP
 
 
 def test_a_cold_cache_is_absent(mindc: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(warmup, "is_native", lambda *_: False)
-    monkeypatch.setattr(warmup, "is_there", lambda *_: False)
+    monkeypatch.setattr(cache, "is_native", lambda *_: False)
+    monkeypatch.setattr(cache, "missing", lambda units: [*units])
     code, found = said(mindc)
     assert (code, found["simulator"]["state"]) == (0, "absent")
     assert found["simulator"]["mend"] == "mindc warmup"

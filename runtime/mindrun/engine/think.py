@@ -16,6 +16,7 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.scopes import Scopes, influence_scopes
 from mindrun.graph.weights import reachable, weights_of
 from mindrun.kinds.procedure_text import Sources
+from mindrun.numbers.arithmetic import clamp
 from mindrun.numbers.arrays import Bools, Compute, Singles
 from mindrun.numbers.expression import evaluate
 
@@ -121,7 +122,7 @@ def think(mind: Hierarchy, readings: Singles, replaced: Mapping[int, float] = Ma
             if not isfinite(value):
                 faults += 1
                 continue
-            value = clamped(value)
+            value = clamp(value)
             for scope in edge.scopes:
                 own = influence[scope, skill.index]
                 if edge.drives:
@@ -172,12 +173,6 @@ def _value(edge: ReadyEdge, outputs: Singles, readings: Singles) -> np.float32 |
         if not holds > 0:
             return np.float32(np.nan)
     return np.float32(evaluate(edge.value, readings)) if edge.output is None else outputs[edge.output]
-
-
-def clamped(value: np.float32) -> np.float32:
-    """The value within 0 to 1."""
-    value = value if value > _ZERO else _ZERO
-    return value if value < _ONE else _ONE
 
 
 def _mean(influence: Singles, commands: Singles, influences: Singles, faults: int) -> Thought:

@@ -81,7 +81,6 @@ def digest(path: Path) -> str:
 
 
 def pack(bundle: Bundle) -> bytes:
-    """A bundle as bytes."""
     members = _members(bundle)
     modules = [name for name, content in bundle.procedures.items() if isinstance(content, str)]
     manifest = _manifest(bundle.graph.master, bundle.policy.weights, modules, bundle.wiring, members)

@@ -23,6 +23,9 @@ COSINE, SINE = range(2)  # rows of a heading
 THING_ROWS, SIZE, DISTANCE = 4, 2, 3  # of a thing: how many, its size, how far the robot was as the tick began
 BOX_COLUMNS, HALF_X, HALF_Y = 4, 2, 3  # of a box: how many, and half of its sides along x and y
 TURN, PUSHED_X, PUSHED_Y, PUSHED_SPIN, LOOSE_ROWS = range(5)  # rows of a loose thing beside those, and how many
+SIGHT_COSINE, SIGHT_SINE, SIGHT_X, SIGHT_Y, FIRST_RAY = range(5)  # rows of `sight`
+LEFT, RIGHT, LOW, HIGH, SIDES = range(5)  # rows of a box in `sides`, and how many
+LOOSE_COSINE, LOOSE_SINE, LOOSE_X, LOOSE_Y, LOOSE_HALF, FRAME_ROWS = range(6)  # of the frame of a loose thing
 ZERO, HALF, ONE, NAN = F(0), F(0.5), F(1), F(np.nan)
 MIN_DENOMINATOR = F(1e-7)
 GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
@@ -200,7 +203,7 @@ def nearest(s: Any, sensor: Any, n: Any) -> Any:
     The first where two are as near; one that has vanished is nowhere, and NaN where all have. Sensors that follow one
     another and are about the same things look for it once. Of obstacles it is the nearest point of any of them.
     """
-    if sensor.boxes > 0:
+    if sensor.things == 0:
         find_nearest_point(s, sensor, n)
         return s.nearest
     if sensor.things == 1:
@@ -228,9 +231,10 @@ OPENED_SQUARE = 1e40  # of a distance: between any place and a box that has been
 def find_nearest_point(s: Any, sensor: Any, n: Any) -> None:
     """Write the point of a sensor's boxes that is nearest to the robot's middle into `s.nearest`, with size 0.
 
-    The first where two are as near; the robot's middle itself where that is in a box. NaN where all have opened.
+    The first where two are as near; the robot's middle itself where that is in a box. NaN where all have
+    opened, or where there are none.
     """
-    found, asked = s.nearest, -2 - sensor.box
+    found, asked = s.nearest, -3 - sensor.box
     if s.nearest_of[0] == asked:
         return
     s.nearest_of[0] = asked

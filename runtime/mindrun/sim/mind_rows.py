@@ -148,7 +148,6 @@ def actuator_rows(graph: Graph, parameters: Parameters) -> tuple[Array, int]:
 
 
 def memory_rows(graph: Graph) -> Array:
-    """Rows of MEMORY."""
     rows = [(memory.start, memory.kind) for memory in graph.memories]
     cells = [{"row": row, "decay": cell.decay, "rest": 1.0 - cell.decay, "start": cell.start} for row, cell in rows]
     return records(cells, MEMORY)

@@ -10,22 +10,8 @@ from mindrun.graph.draws import Draw
 from mindrun.graph.graph import Graph, Task, Variation, Varying, varied_quantity
 from mindrun.graph.tasks import varied_kind
 from mindrun.numbers.arrays import Array
-from mindrun.sim.codes import (
-    BETWEEN,
-    CHOSEN,
-    CONSTANT,
-    DAMPING,
-    DRAWN,
-    DRAWN_WHOLE,
-    FAILING,
-    INVERSE,
-    MADE,
-    MAKING,
-    OVER,
-    PARAMETER,
-    Row,
-    records,
-)
+from mindrun.sim import codes
+from mindrun.sim.codes import Row, records
 
 K = TypeVar("K")
 
@@ -35,11 +21,11 @@ Step = tuple[int, float]  # TIMES, OVER, INVERSE or DAMPING, and the number that
 
 def computed(form: int, x: float, by: float) -> float:
     """The result of a step: 1/(1 + by·x), by/x, x/by or x·by; compiled, too."""
-    if form == DAMPING:
+    if form == codes.DAMPING:
         return 1.0 / (1.0 + by * x)
-    if form == INVERSE:
+    if form == codes.INVERSE:
         return by / x
-    return x / by if form == OVER else x * by
+    return x / by if form == codes.OVER else x * by
 
 
 class Parameters:
@@ -53,36 +39,35 @@ class Parameters:
         self._drawn: dict[tuple[str, str, str], tuple[int, Variation]] = {}
         for each in task.varies:
             quantity = varied_quantity(varied_kind(graph, task, each), each.argument)
-            form = DRAWN_WHOLE if quantity and quantity.whole else DRAWN
+            form = codes.DRAWN_WHOLE if quantity and quantity.whole else codes.DRAWN
             row = self._add(form, low=each.low, high=each.high)
             self._drawn[each.noun, each.of, each.argument] = row, each
-        self._failing = {each.actuator: self._add(FAILING, low=1.0 - each.rate) for each in task.fails}
+        self._failing = {each.actuator: self._add(codes.FAILING, low=1.0 - each.rate) for each in task.fails}
         self.choices: list[float] = []
         self.given = [self._draw(each) for each in task.draws]  # the rows of what the task draws
         self._makings: list[Row] = []
 
     def made(self, code: int, length: int) -> int:
         """The row of what a program makes of the numbers that the task draws."""
-        row = self._add(MADE)
+        row = self._add(codes.MADE)
         self._makings.append({"row": row, "code": code, "length": length})
         return row
 
     def makings(self) -> Array:
-        """Rows of MAKING."""
-        return records(self._makings, MAKING)
+        return records(self._makings, codes.MAKING)
 
     def _draw(self, draw: Draw) -> int:
         if draw.is_range:
-            return self._add(BETWEEN, low=draw.values[0], high=draw.values[1])
+            return self._add(codes.BETWEEN, low=draw.values[0], high=draw.values[1])
         self.choices += draw.values
-        return self._add(CHOSEN, of=len(self.choices) - len(draw.values), high=len(draw.values))
+        return self._add(codes.CHOSEN, of=len(self.choices) - len(draw.values), high=len(draw.values))
 
     def row(self, noun: Varying, of: str, argument: str, value: float, *steps: Step) -> int:
         """The row of an argument, or of what `steps` make of it; it is `value` where it does not vary."""
         if (noun, of, argument) not in self._drawn:
             for form, by in steps:
                 value = computed(form, value, by)
-            return self._add(CONSTANT, low=value)
+            return self._add(codes.CONSTANT, low=value)
         row, _ = self._drawn[noun, of, argument]
         for form, by in steps:
             row = self._add(form, of=row, low=by)
@@ -99,8 +84,7 @@ class Parameters:
         return replace(whole, **{key: type(getattr(kind, key))(value) for key, value in own.items()}) if own else kind
 
     def table(self) -> Array:
-        """Rows of PARAMETER."""
-        return records(self._rows, PARAMETER)
+        return records(self._rows, codes.PARAMETER)
 
     def _add(self, form: int, **numbers: float) -> int:
         self._rows.append({"form": form, **numbers})

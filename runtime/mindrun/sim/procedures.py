@@ -63,8 +63,7 @@ class Procedures:
         function = self.function(skill.name)
         if skill.outputs == 0:  # it is never called
             return
-        from mindrun.sim.compiled_formulas import compile_formula  # with numba, which few minds need
-        from mindrun.sim.formulas import NoFormulaError
+        from mindrun.sim.formulas import NoFormulaError, compile_formula  # with numba, which few minds need
 
         try:
             source = str(self._sources[module_of(self.calls[skill.name])])

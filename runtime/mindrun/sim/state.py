@@ -11,16 +11,13 @@ from typing import Any, TypeVar
 import numpy as np
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
-from mindrun.numbers.arithmetic import BOX_COLUMNS, LOOSE_ROWS, THING_ROWS, X, Y
+from mindrun.numbers.arithmetic import BOX_COLUMNS, FIRST_RAY, FRAME_ROWS, LOOSE_ROWS, SIDES, THING_ROWS, X, Y
 from mindrun.numbers.arrays import Array
 from mindrun.sim.arrays import Block, columns, each, rows, shape
 from mindrun.sim.codes import AWAY, PAIR, PUSH_ROWS, SOLID, SPACE, WALL_COUNT, Tables
 
 Part = TypeVar("Part", bound=Block)
 PLACE_ROWS = 2  # x and y
-SIGHT_COSINE, SIGHT_SINE, SIGHT_X, SIGHT_Y, FIRST_RAY = range(5)  # rows of `sight`
-LEFT, RIGHT, LOW, HIGH, SIDES = range(5)  # rows of a box in `sides`, and how many
-LOOSE_COSINE, LOOSE_SINE, LOOSE_X, LOOSE_Y, LOOSE_HALF, FRAME_ROWS = range(6)  # of the frame of a loose thing
 FAILED_SKILL, FAILED_COLUMN = range(2)  # of `failed`
 # What is solid: a box or wall that never moves, the robot, what it holds, then what is loose.
 FIXED, ROBOT, HELD, FIRST_LOOSE = range(4)
@@ -71,7 +68,7 @@ class SightState(Block):
     # for this tick
     sides: Array = rows("boxes", SIDES, kind=F4)  # those of the boxes nearby, relative to the robot
     nearest: Array = rows(THING_ROWS)  # of several things of one name
-    nearest_of: Array = shape(1)  # which these are, −2 − the first box, −1 before any sensor has asked
+    nearest_of: Array = shape(1)  # which these are, −3 − the first box, −2 of none, −1 before any sensor asks
     frame: Array = rows(FRAME_ROWS, kind=F4)  # of the thing that is looked at
     sight: Array = rows("sight", kind=F4)  # heading and place, then how far each ray goes
 

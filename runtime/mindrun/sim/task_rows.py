@@ -160,7 +160,6 @@ def option_rows(task: Task) -> Array:
 
 
 def obstacle_rows(task: Task, parameters: Parameters, programs: Programs) -> Array:
-    """Rows of OBSTACLE."""
     rows: list[Row] = []
     option = sum(len(thing.kind.options) for thing in task.things if not thing.kind.is_obstacle)
     for thing in (thing for thing in task.things if thing.kind.is_obstacle):

@@ -3,7 +3,7 @@
 import fcntl
 import signal
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 from mindrun.kinds.registry import kinds
 from mindrun.processors import give_way
@@ -14,16 +14,6 @@ from mindrun.sim.lanes import advance  # noqa: F401  whose units these are
 from mindrun.sim.units import UNITS, Unit
 
 LOWEST_NICENESS = 19  # how little a process matters that works while others wait for nothing
-
-
-def is_there(units: Iterable[Unit]) -> bool:
-    """True if there is machine code of all of these units, kept or shipped."""
-    return not cache.missing(units)
-
-
-def is_native(units: Iterable[Unit]) -> bool:
-    """True if all of these units are compiled for this very processor."""
-    return all(map(cache.is_native, units))
 
 
 def every_unit() -> list[Unit]:

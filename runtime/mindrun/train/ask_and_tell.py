@@ -18,12 +18,16 @@ GENOMES_PER_PARENT = 4  # of an evolution strategy: one genome in so many has a 
 def ask(population: Population, learner: Learner, start: Genomes, draw: Draw, rng: np.random.Generator) -> Genomes:
     """The genomes [individuals, weights] to score next: the founders, then generations of `learner.population`.
 
-    `start` [0 or 1, weights] is what the skill knows; where it knows nothing, `draw` has random genomes.
+    `start` [0 or 1, weights] is what the skill knows, and the first to be bred are that and mutated copies of it; where
+    it knows nothing, `draw` has random genomes.
     """
     if population.generation == 0 and not len(start):
         return bounded(draw(founder_count(learner), rng))
     if isinstance(learner, Genetic):
-        return breed(population, learner, rng) if population.generation else variants(start, learner, rng)
+        if population.generation:
+            return breed(population, learner, rng)
+        copies = np.repeat(start, learner.population - 1, axis=0)
+        return bounded(np.concatenate([start, mutate(copies, learner, rng)]))
     centre = _centre(population, start)
     steps = rng.standard_normal((learner.population, centre.shape[1]), np.float32)
     return bounded(centre + np.float32(learner.mutation) * steps)
@@ -43,12 +47,6 @@ def tell(population: Population, learner: Learner, start: Genomes, genomes: Geno
 def kept_count(learner: Learner) -> int:
     """How many genomes a population has between two generations."""
     return learner.population if isinstance(learner, Genetic) else 1
-
-
-def variants(start: Genomes, learner: Genetic, rng: np.random.Generator) -> Genomes:
-    """The first genomes [individuals, weights]: what the skill knows, `start` [1, weights], and mutated copies."""
-    copies = np.repeat(start, learner.population - 1, axis=0)
-    return bounded(np.concatenate([start, mutate(copies, learner, rng)]))
 
 
 def breed(population: Population, learner: Genetic, rng: np.random.Generator) -> Genomes:

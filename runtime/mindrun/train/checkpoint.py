@@ -71,7 +71,6 @@ def load(folder: Path, run: str) -> tuple[LessonState, str] | None:
 
 
 def pack(state: LessonState, run: str) -> bytes:
-    """A state as bytes."""
     now = state.now
     counts = state.attempt, now.population.generation, now.since, state.generations, state.ticks, state.faults
     arrays: Arrays = {

@@ -1,6 +1,7 @@
 """Actuators, and what the rest of the program asks of each: it knows none by name."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from math import pi
 from typing import Annotated, Literal, get_args
 
@@ -75,16 +76,20 @@ class ActuatorKind(OfEnvironment):
         return {}
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Pushing(ActuatorKind):
-    """Pushes with the force (2v − 1)·thrust: 0 full reverse, 0.5 stopped, 1 full forward."""
+    """Pushes with the force (2v − 1)·thrust: 0 full reverse, 0.5 stopped, 1 full forward.
 
-    __slots__ = ()
+    A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less; up to `slip` of the
+    force is lost, anew in every tick.
+    """
 
-    thrust: float
-    noise: float
-    slip: float
+    thrust: Thrust = 80.0
+    delay: Ticks = 0
+    noise: Ratio = 0.0
+    slip: Ratio = 0.0
 
-    varying: tuple[str, ...] = ("thrust", "delay", "noise", "slip")
+    varying = tuple[str, ...](("thrust", "delay", "noise", "slip"))
     is_motor = True
 
     def place(self, body: BodyKind) -> Point:
@@ -108,12 +113,15 @@ class Pushing(ActuatorKind):
         }  # fmt: skip
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Rolling(Pushing):
-    """Pushes by rolling: while it stands still, a command so near to 0.5 as `starts` says pushes nothing."""
+    """Pushes by rolling.
 
-    __slots__ = ()
+    As long as it stands still, it does not push for a command that is less than the share `starts` of the way from 0.5
+    to 0 or 1.
+    """
 
-    starts: float
+    starts: Ratio = left_out(0.0)
 
     varying = (*Pushing.varying, "starts")
 
@@ -127,21 +135,10 @@ SIDE = Reference("side", get_args(Side))
 
 @kind("actuator", "wheel")
 class Wheel(Rolling):
-    """A wheel on the body's rim: 0 full reverse, 0.5 stopped, 1 full forward; force (2v − 1)·thrust along the heading.
-
-    A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less; up to `slip` of the
-    force is lost, anew in every tick.
-    As long as it stands still, it does not push for a command that is less than the share `starts` of the way from 0.5
-    to 0 or 1.
-    """
+    """A wheel on the body's rim: 0 full reverse, 0.5 stopped, 1 full forward; (2v − 1)·thrust along the heading."""
 
     side: Annotated[Side, SIDE]
     neutral: Ratio
-    thrust: Thrust = 80.0
-    delay: Ticks = 0
-    noise: Ratio = 0.0
-    slip: Ratio = 0.0
-    starts: Ratio = left_out(0.0)
 
     drive = "wheel"
 
@@ -160,17 +157,12 @@ PLACE = Quantity("a place on the body in world units", {"": 1.0}, low=-1000.0, h
 class Thruster(Pushing):
     """A force (2v − 1)·thrust `at` a point of the body, x ahead of its middle and y to its left: 0.5 is none.
 
-    It pushes the body to where it is `facing`, counterclockwise from straight ahead. A command acts `delay` ticks after
-    the tick that computed it, with up to `noise` more or less; up to `slip` of the force is lost, anew in every tick.
+    It pushes the body to where it is `facing`, counterclockwise from straight ahead.
     """
 
     neutral: Ratio
     at: Annotated[Place, PLACE] = (0.0, 0.0)
     facing: Angle = 0.0
-    thrust: Thrust = 80.0
-    delay: Ticks = 0
-    noise: Ratio = 0.0
-    slip: Ratio = 0.0
 
     drive = "thruster"
 
@@ -187,20 +179,10 @@ class Thruster(Pushing):
 
 @kind("actuator", "motor")
 class Motor(Rolling):
-    """The drive of a car: 0 full reverse, 0.5 stopped, 1 full forward; force (2v − 1)·thrust along the heading.
-
-    A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less; up to `slip` of the
-    force is lost, anew in every tick.
-    As long as it stands still, it does not push for a command that is less than the share `starts` of the way from 0.5
-    to 0 or 1.
-    """
+    """The drive of a car: 0 full reverse, 0.5 stopped, 1 full forward; force (2v − 1)·thrust along the heading."""
 
     neutral: Ratio
-    thrust: Thrust = 160.0
-    delay: Ticks = 0
-    noise: Ratio = 0.0
-    slip: Ratio = 0.0
-    starts: Ratio = left_out(0.0)
+    thrust: Thrust = field(default=160.0, kw_only=True)
 
     drive = "motor"
 

@@ -39,10 +39,6 @@ class Bearing(Physical):
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         out = s.readings[sensor.start]
-        if sensor.things == 0 and sensor.boxes == 0:
-            for p in range(n):
-                out[p] = HALF
-            return
         thing = nearest(s, sensor, n)
         x, y, away = thing[X], thing[Y], thing[DISTANCE]
         for p in range(n):
@@ -70,10 +66,6 @@ class Distance(Ranging):
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         out = s.readings[sensor.start]
-        if sensor.things == 0 and sensor.boxes == 0:
-            for p in range(n):
-                out[p] = ONE
-            return
         thing, body = nearest(s, sensor, n), t.world[0]
         away, size, radius = thing[DISTANCE], thing[SIZE], body.radius
         if body.is_round:
@@ -112,10 +104,6 @@ class Light(Physical):
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         out = s.readings[sensor.start]
-        if sensor.things == 0:
-            for p in range(n):
-                out[p] = ZERO
-            return
         thing = nearest(s, sensor, n)
         x, y, away = thing[X], thing[Y], thing[DISTANCE]
         for p in range(n):

@@ -35,7 +35,7 @@ class RangeFinder(Ranging):
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         scale = ONE / F(sensor.range)
         for ray in range(sensor.width):
-            out, far = s.readings[sensor.start + ray], s.sight[4 + sensor.ray + ray]
+            out, far = s.readings[sensor.start + ray], s.sight[FIRST_RAY + sensor.ray + ray]
             rim = t.rims[sensor.ray + ray]
             if sensor.servo >= 0 and not t.world[0].is_round:
                 for p in range(n):
@@ -87,7 +87,7 @@ class Eye(Ranging):
                 cosine, sine = t.rays[COSINE, sensor.ray + k], t.rays[SINE, sensor.ray + k]
                 meet_rectangle(s.sight, s.frame, cosine, sine, out[k], n)
         for k in range(sensor.width):
-            solid, rim = s.sight[4 + sensor.ray + k], t.rims[sensor.ray + k]
+            solid, rim = s.sight[FIRST_RAY + sensor.ray + k], t.rims[sensor.ray + k]
             is_turned = sensor.servo >= 0 and not t.world[0].is_round
             for p in range(n if is_turned else 0):
                 rim = turned_rim(t, s, sensor, k, p)

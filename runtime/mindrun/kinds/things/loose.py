@@ -6,32 +6,8 @@ from typing import Annotated
 from mindrun.kinds.bodies.body import Damping, Density
 from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import (
-    DEFAULT_DISTANCE,
-    DEFAULT_SIZE,
-    MOVES,
-    SPEED,
-    STAYS,
-    Aiming,
-    Alternatives,
-    Becomes,
-    ThingKind,
-    ThingMistake,
-)
-from mindrun.numbers.quantity import (
-    DISTANCE,
-    FARTHEST_UNITS,
-    POSITIVE,
-    THING,
-    Count,
-    Lengths,
-    Places,
-    Quantity,
-    Ratio,
-    Region,
-    Span,
-    ThingName,
-)
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MOVES, SPEED, Aiming, Becomes, ThingMistake
+from mindrun.numbers.quantity import POSITIVE, Quantity, Ratio, Span
 
 LOOSE_SIZE = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1000.0)
 FORCE = replace(POSITIVE, name="a force")
@@ -47,7 +23,7 @@ class _Varying:
 
 
 @dataclass(frozen=True, slots=True)
-class Loose(ThingKind, Aiming):
+class Loose(Aiming):
     """A solid thing that is not fixed: the robot pushes it, and so does what it pushes.
 
     Every tick of length dt its velocity and its spin are divided by 1 + dt·damping. Where two things touch, the product
@@ -58,18 +34,9 @@ class Loose(ThingKind, Aiming):
     density: Density = 0.5
     friction: Ratio = DEFAULT_FRICTION
     damping: Damping = 5.0
-    away: Lengths = DEFAULT_DISTANCE
-    at: Places = ()
-    or_: Alternatives = left_out(())
-    within: Annotated[Region, THING] = left_out("")
-    count: Count = 1
-    reached: Becomes = STAYS
     delivered: Becomes = MOVES
-    seeks: ThingName = left_out("")
-    flees: ThingName = left_out("")
     speed: Annotated[float, SPEED] = left_out(DEFAULT_SPEED)
     thrust: Annotated[float, FORCE] = left_out(DEFAULT_THRUST)
-    range: Annotated[float, DISTANCE] = left_out(FARTHEST_UNITS)
 
     varying = _Varying()
     is_solid = True
@@ -88,7 +55,7 @@ class Loose(ThingKind, Aiming):
         if self.away != DEFAULT_DISTANCE and max(self.away.first, self.away.last) < extent:
             hint = f"Write away {self.largest:g} to {self.largest + 20:g}: it is {self.largest:g} large."
             return ThingMistake("on-the-robot", "So near, it would stand on the robot.", hint)
-        return ThingKind.mistake(self, scene)
+        return Aiming.mistake(self, scene)
 
 
 @kind("content", "box")

@@ -1,7 +1,7 @@
 """What the rest of the program asks of a thing, of which it knows no kind by name; and the kinds that are short."""
 
 from collections.abc import Iterable, Mapping, Set
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import hypot, inf
 from types import MappingProxyType
 from typing import Annotated, Literal, NamedTuple, Protocol, get_args
@@ -10,6 +10,7 @@ from mindrun.kinds.registry import arguments, base, kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.numbers.quantity import (
     COORDINATE,
+    DISTANCE,
     FARTHEST_UNITS,
     POSITIVE,
     THING,
@@ -21,6 +22,7 @@ from mindrun.numbers.quantity import (
     Reference,
     Region,
     Span,
+    ThingName,
 )
 
 OR = " or "  # between the names of the things that a sensor is about alike
@@ -296,14 +298,26 @@ class AboutThing:
         return cls.is_about(kind)
 
 
-class Aiming(AboutThing):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Placed(ThingKind):
+    """A thing that touches nothing, and stays in its place until it is reached."""
+
+    size: Lengths = field(default=DEFAULT_SIZE, kw_only=False)
+    away: Lengths = DEFAULT_DISTANCE
+    at: Places = ()
+    or_: Alternatives = left_out(())
+    within: Annotated[Region, THING] = left_out("")
+    count: Count = 1
+    reached: Becomes = STAYS
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Aiming(Placed, AboutThing):
     """A thing that may go to the robot, or to the nearest thing of a name, or away from it, within its `range`."""
 
-    __slots__ = ()
-
-    seeks = ""
-    flees = ""
-    range = FARTHEST_UNITS
+    seeks: ThingName = left_out("")
+    flees: ThingName = left_out("")
+    range: Annotated[float, DISTANCE] = left_out(FARTHEST_UNITS)
 
     @property
     def thing(self) -> str:
@@ -321,19 +335,6 @@ class Aiming(AboutThing):
                 "aimless-distance", "A distance says when it seeks or flees, and it does neither.", hint
             )
         return None
-
-
-@dataclass(frozen=True, slots=True)
-class Placed(ThingKind):
-    """A thing that touches nothing, and stays in its place until it is reached."""
-
-    size: Lengths = DEFAULT_SIZE
-    away: Lengths = DEFAULT_DISTANCE
-    at: Places = ()
-    or_: Alternatives = left_out(())
-    within: Annotated[Region, THING] = left_out("")
-    count: Count = 1
-    reached: Becomes = STAYS
 
 
 @kind("content", "item")

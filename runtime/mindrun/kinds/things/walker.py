@@ -7,31 +7,8 @@ from typing import Annotated, Literal, get_args
 
 from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import (
-    DEFAULT_DISTANCE,
-    DEFAULT_SIZE,
-    SPEED,
-    STAYS,
-    Aiming,
-    Alternatives,
-    Becomes,
-    ThingKind,
-    ThingMistake,
-    outside,
-)  # fmt: skip
-from mindrun.numbers.quantity import (
-    ANGLE,
-    DISTANCE,
-    FARTHEST_UNITS,
-    THING,
-    Count,
-    Lengths,
-    Place,
-    Places,
-    Reference,
-    Region,
-    ThingName,
-)
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, SPEED, Aiming, Alternatives, ThingMistake, outside
+from mindrun.numbers.quantity import ANGLE, Place, Places, Reference
 
 TURNING = replace(ANGLE, low=0.0)
 
@@ -42,7 +19,7 @@ BEGIN = Reference("beginning", get_args(Begin))
 
 
 @kind("content", "walker")
-class Walker(ThingKind, Aiming):
+class Walker(Aiming):
     """A disc of diameter `size` on the floor that moves at `speed`, in units per second, and touches nothing.
 
     It wanders: its direction drifts by about `turning` in a second, and where its next step would meet a wall or an
@@ -54,20 +31,10 @@ class Walker(ThingKind, Aiming):
     from middle to middle. Where none is within its `range`, or something is in its way, it wanders.
     """
 
-    size: Lengths = DEFAULT_SIZE
     speed: Annotated[float, SPEED] = 1.0
     turning: Annotated[float, TURNING] = pi / 2
     along: Places = ()
-    away: Lengths = DEFAULT_DISTANCE
-    at: Places = ()
-    or_: Alternatives = left_out(())
     from_: Annotated[Begin, BEGIN] = left_out(START)
-    within: Annotated[Region, THING] = left_out("")
-    count: Count = 1
-    reached: Becomes = STAYS
-    seeks: ThingName = left_out("")
-    flees: ThingName = left_out("")
-    range: Annotated[float, DISTANCE] = left_out(FARTHEST_UNITS)
 
     varying = ("speed", "turning")
     is_round = True
@@ -100,7 +67,7 @@ class Walker(ThingKind, Aiming):
         if not self.along:
             hint = "Write the places of its way: along 0 0 to 10 0 from anywhere."
             lost = ThingMistake("missing-argument", "What has no way begins nowhere on it.", hint)
-            return lost if self.from_ == ANYWHERE else ThingKind.mistake(self, scene)
+            return lost if self.from_ == ANYWHERE else Aiming.mistake(self, scene)
         if self.at or self.within or self.away != DEFAULT_DISTANCE:
             hint = "Leave at, within and away out: it begins where its way does."
             return ThingMistake("place-and-way", "It says where it goes, and where it stands.", hint)

@@ -2,23 +2,7 @@
 
 import numpy as np
 
-from mindrun.numbers.arithmetic import (
-    COSINE,
-    HALF,
-    ONE,
-    SINE,
-    ZERO,
-    F,
-    clamp,
-    finite,
-    in_claw,
-    middle_of,
-    motion_of,
-    place_of,
-    put_thing,
-    size_of,
-    uniform,
-)
+from mindrun.numbers.arithmetic import *
 from mindrun.sim.codes import GRIPPER, ITEM, SERVO, Tables
 from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred, is_blocked, is_walled
 from mindrun.sim.state import State

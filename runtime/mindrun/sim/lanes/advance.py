@@ -1,6 +1,6 @@
 """Ticks of all lanes: the stages in their order, in two halves, between which procedures may run in Python."""
 
-from mindrun.numbers.arithmetic import X, Y, middle_of
+from mindrun.numbers.arithmetic import *
 from mindrun.sim.codes import GOING_ON, Tables
 from mindrun.sim.lanes.act import act, recall
 from mindrun.sim.lanes.judge import begin_measures, judge

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
-from mindrun.numbers.arithmetic import BOX_COLUMNS, COSINE, SINE, X, Y, distance_of, inside, middle_of, place_of
+from mindrun.numbers.arithmetic import *
 from mindrun.sim import codes
 from mindrun.sim.codes import DELIVERY, GOING_ON, LEAVE, REACH, Tables
 from mindrun.sim.lanes.reaching import arrivals, become, begun_of, cross, meet

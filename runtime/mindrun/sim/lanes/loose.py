@@ -7,19 +7,7 @@ more by then: what Chipmunk remembers of them has become too small to move anyth
 
 import numpy as np
 
-from mindrun.numbers.arithmetic import (
-    LOOSE_ROWS,
-    PUSHED_SPIN,
-    PUSHED_X,
-    PUSHED_Y,
-    TURN,
-    X,
-    Y,
-    length,
-    next_middle,
-    place_of,
-    put_thing,
-)
+from mindrun.numbers.arithmetic import *
 from mindrun.sim.codes import HALF_DIAGONAL, Tables
 from mindrun.sim.lanes.solid import drift_of, extent_of, is_free, loose_place, loose_size, turn_of, within
 from mindrun.sim.state import FIRST_LOOSE, PLACE_ROWS, ContactState, WorldState
@@ -59,7 +47,7 @@ def slow_down(tables: Tables, world: WorldState, contact: ContactState, lane: in
     world.restless[lane] = restless
 
 
-def seek(world, row, x, y, lane):
+def wanted_way(world, row, x, y, lane):
     """The way along x and y that something at a place wants to go in this tick, as its row of a table says.
 
     It leads straight towards the nearest that it seeks and not past that, or away from what it flees. It is no number
@@ -89,7 +77,7 @@ def drive(tables: Tables, world: WorldState, i: int, lane: int) -> None:
     """
     loose, dt = tables.loose[i], tables.world[0].dt
     x, y = next_place_of(tables, world, i, lane)
-    dx, dy = seek(world, loose, x, y, lane)
+    dx, dy = wanted_way(world, loose, x, y, lane)
     slower, mass = world.numbers[loose.slower, lane], mass_of(tables, world, i, lane)
     vx, vy, _ = drift_of(world.loose, i, lane)
     along, across = (dx / dt / slower - vx) * mass / dt, (dy / dt / slower - vy) * mass / dt

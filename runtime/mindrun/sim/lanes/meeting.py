@@ -8,7 +8,7 @@ added last first.
 
 import numpy as np
 
-from mindrun.numbers.arithmetic import box_of
+from mindrun.numbers.arithmetic import *
 from mindrun.sim.codes import PERSISTENCE_TICKS, WALL_COUNT, Tables
 from mindrun.sim.lanes.loose import OF_LOOSE
 from mindrun.sim.lanes.nearest_points import LEAST_NORMAL, farthest, nearest_points

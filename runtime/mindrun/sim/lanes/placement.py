@@ -7,22 +7,7 @@ the same world. Everything is placed clear of everything else, with room for the
 import numpy as np
 
 from mindrun.graph.tasks import meets_robot
-from mindrun.numbers.arithmetic import (
-    ANGLE,
-    HALF_X,
-    HALF_Y,
-    LOOSE_ROWS,
-    THING_ROWS,
-    X,
-    Y,
-    length,
-    place_of,
-    put_thing,
-    resize_thing,
-    sine_cosine,
-    size_of,
-    uniform,
-)
+from mindrun.numbers.arithmetic import *
 from mindrun.sim.codes import FAR, Tables
 from mindrun.sim.lanes.solid import count_of, is_clear, put_box
 from mindrun.sim.state import WorldState

@@ -3,7 +3,7 @@
 Which things are reached does not depend on whether a line of the task names the event: measuring changes nothing.
 """
 
-from mindrun.numbers.arithmetic import in_claw, inside, middle_of, place_of, size_of
+from mindrun.numbers.arithmetic import *
 from mindrun.sim.codes import LEAVE, MOVES, REACH, STAYS, VANISHES, ZONE, Tables
 from mindrun.sim.lanes.loose import SETTLED_TICKS
 from mindrun.sim.lanes.placement import succeed, vanish

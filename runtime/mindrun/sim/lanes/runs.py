@@ -4,22 +4,9 @@ import numpy as np
 
 from mindrun.graph import draws
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
-from mindrun.numbers.arithmetic import ANGLE, COSINE, SINE, X, Y, middle_of, sine_cosine, uniform
-from mindrun.sim.codes import (
-    BETWEEN,
-    CHOSEN,
-    CONSTANT,
-    DRAWN,
-    DRAWN_NUMBER,
-    DRAWN_WHOLE,
-    FAILING,
-    GOING_ON,
-    LEAVE,
-    LOST,
-    SERVO,
-    VISIT,
-    Tables,
-)
+from mindrun.numbers.arithmetic import *
+from mindrun.sim import codes
+from mindrun.sim.codes import Tables
 from mindrun.sim.lanes.judge import patch_of
 from mindrun.sim.lanes.placement import any_of, draw, vanish
 from mindrun.sim.lanes.reaching import begin_inside
@@ -48,8 +35,8 @@ def end(tables: Tables, state: State, jobs: Jobs, lane: int) -> None:
     run = state.run
     if is_lost(state.world.body, lane):
         run.faults[lane] += 1
-        run.ended[lane] = LOST
-    if run.ended[lane] != GOING_ON or state.world.tick[lane] >= jobs.most[0]:
+        run.ended[lane] = codes.LOST
+    if run.ended[lane] != codes.GOING_ON or state.world.tick[lane] >= jobs.most[0]:
         finish(tables, state, jobs, lane)
         if not begin_job(tables, state, jobs, lane):
             last = jobs.lanes[0] - 1
@@ -87,9 +74,9 @@ def draw_numbers(tables, world, seed, lane):
     world.random_aside[lane] = seed ^ BEFORE_THE_WORLD
     for i in range(len(tables.parameters)):
         row = tables.parameters[i]
-        if row.form == BETWEEN:
+        if row.form == codes.BETWEEN:
             world.numbers[i, lane] = uniform(world.random_aside, lane, row.low, row.high)
-        elif row.form == CHOSEN:
+        elif row.form == codes.CHOSEN:
             world.numbers[i, lane] = tables.choices[row.of + any_of(world.random_aside, int(row.high), lane)]
 
 
@@ -98,15 +85,15 @@ def set_numbers(tables, world, lane):
     numbers, random = world.numbers, world.random
     for i in range(len(tables.parameters)):
         row = tables.parameters[i]
-        if row.form == CONSTANT:
+        if row.form == codes.CONSTANT:
             numbers[i, lane] = row.low
-        elif row.form == DRAWN:
+        elif row.form == codes.DRAWN:
             numbers[i, lane] = uniform(random, lane, row.low, row.high)
-        elif row.form == DRAWN_WHOLE:
+        elif row.form == codes.DRAWN_WHOLE:
             numbers[i, lane] = min(np.floor(uniform(random, lane, row.low, row.high + 1.0)), row.high)
-        elif row.form == FAILING:
+        elif row.form == codes.FAILING:
             numbers[i, lane] = fails_at(uniform(random, lane, 0.0, 1.0), row.low, tables.world[0].ticks)
-        elif row.form < CHOSEN:  # all others are known already
+        elif row.form < codes.CHOSEN:  # all others are known already
             numbers[i, lane] = computed(row.form, numbers[row.of, lane], row.low)
 
 
@@ -142,7 +129,7 @@ def leave_out(tables: Tables, state: State, lane: int) -> None:
 def of_drawn(tables, state, code, length, lane):
     """The value of a program of what the task of a lane draws, when its run begins."""
     for i in range(len(tables.measures)):
-        if tables.measures[i].kind == DRAWN_NUMBER:
+        if tables.measures[i].kind == codes.DRAWN_NUMBER:
             state.judge.measures[i, lane] = state.world.numbers[tables.measures[i].row, lane]
     state.mind.active[0] = lane
     run_program(tables, state, code, length, 0, 1, False)
@@ -161,7 +148,7 @@ def reset(tables, state, lane):
     for i in range(len(tables.actuators)):
         actuator = tables.actuators[i]
         judge.last_commands[i, lane] = actuator.neutral
-        if actuator.kind == SERVO:
+        if actuator.kind == codes.SERVO:
             world.swivel[i, lane] = (1.0 - 2.0 * actuator.neutral) * world.numbers[actuator.turn, lane]
         for k in range(actuator.delay):
             mind.late[actuator.ring + k, lane] = actuator.neutral
@@ -171,15 +158,15 @@ def reset(tables, state, lane):
     judge.tallies[:, lane], judge.stretches[:, lane] = 0.0, 0.0
     judge.counts[:, lane], judge.visited[lane], judge.arrived[:, lane], judge.left[:, lane] = 0, 0, 0, 0
     for i in range(len(tables.events)):
-        if tables.events[i].kind == VISIT:  # the patch that the robot starts in
+        if tables.events[i].kind == codes.VISIT:  # the patch that the robot starts in
             patch = patch_of(world.body, tables.world[0], tables.events[i], lane)
             judge.visited[lane, tables.events[i].board + patch] = 1
-        elif tables.events[i].kind == LEAVE:
+        elif tables.events[i].kind == codes.LEAVE:
             begin_inside(tables, state, i, lane)
     state.sight.anchor[:, lane] = np.nan
     state.contact.near[lane], state.contact.touching[lane] = 0, 0
     state.contact.space[lane].seconds = 0.0
-    run.ended[lane], run.met[lane], run.faults[lane] = GOING_ON, GOING_ON, 0
+    run.ended[lane], run.met[lane], run.faults[lane] = codes.GOING_ON, codes.GOING_ON, 0
 
 
 def finish(tables, state, jobs, lane):

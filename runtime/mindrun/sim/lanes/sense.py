@@ -2,63 +2,11 @@
 
 import numpy as np
 
-from mindrun.numbers.arithmetic import (
-    ANGLE,
-    BOX_COLUMNS,
-    COSINE,
-    DISTANCE,
-    HALF_X,
-    HALF_Y,
-    LANES,
-    LOOSE_ROWS,
-    ONE,
-    SINE,
-    THING_ROWS,
-    TURN,
-    ZERO,
-    F,
-    X,
-    Y,
-    box_of,
-    clamp,
-    highest,
-    length,
-    load,
-    lowest,
-    middle_of,
-    nearer,
-    place_of,
-    sine_cosine,
-    size_of,
-    splat,
-    store,
-    uniform,
-    wrapped,
-)
+from mindrun.numbers.arithmetic import *
 from mindrun.sim.codes import Tables
 from mindrun.sim.kind_lanes import read
 from mindrun.sim.lanes.solid import count_of, put_box, remove_box
-from mindrun.sim.state import (
-    FIRST_RAY,
-    HIGH,
-    LEFT,
-    LOOSE_COSINE,
-    LOOSE_HALF,
-    LOOSE_SINE,
-    LOOSE_X,
-    LOOSE_Y,
-    LOW,
-    RIGHT,
-    SIDES,
-    SIGHT_COSINE,
-    SIGHT_SINE,
-    SIGHT_X,
-    SIGHT_Y,
-    MindState,
-    SightState,
-    State,
-    WorldState,
-)
+from mindrun.sim.state import MindState, SightState, State, WorldState
 from mindrun.sim.units import unit, unit_where
 
 CULLING_SLACK_UNITS = 2.0  # how far a robot may move before the boxes near it are chosen anew

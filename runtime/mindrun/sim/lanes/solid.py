@@ -10,30 +10,7 @@ is stopped there: the straight way of a middle from tick to tick never leads thr
 
 import numpy as np
 
-from mindrun.numbers.arithmetic import (
-    ANGLE,
-    BOX_COLUMNS,
-    HALF_X,
-    HALF_Y,
-    LOOSE_ROWS,
-    PUSHED_SPIN,
-    PUSHED_X,
-    PUSHED_Y,
-    SPEED_X,
-    SPEED_Y,
-    SPIN,
-    TURN,
-    X,
-    Y,
-    box_of,
-    middle_of,
-    motion_of,
-    place_of,
-    pose_of,
-    put_thing,
-    sine_cosine,
-    size_of,
-)
+from mindrun.numbers.arithmetic import *
 from mindrun.sim.codes import AWAY, FAR, HALF_DIAGONAL, Tables
 from mindrun.sim.state import FIRST_LOOSE, HELD, ROBOT, WorldState
 from mindrun.sim.units import seldom, unit_where

@@ -7,21 +7,7 @@ comes so near that the rectangles around both meet, a step changes nothing of it
 import numpy as np
 
 from mindrun.kinds.bodies.body import FRICTION_COEFFICIENT
-from mindrun.numbers.arithmetic import (
-    ANGLE,
-    LOOSE_ROWS,
-    SPEED_X,
-    SPEED_Y,
-    SPIN,
-    TURN,
-    X,
-    Y,
-    motion_of,
-    place_of,
-    pose_of,
-    put_thing,
-    size_of,
-)
+from mindrun.numbers.arithmetic import *
 from mindrun.sim import c_library
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE, Tables
 from mindrun.sim.lanes.loose import OF_LOOSE, SETTLED_TICKS, is_at_rest, mass_of, put_drift

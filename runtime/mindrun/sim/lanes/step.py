@@ -5,31 +5,10 @@ Walkers touch nothing: they are plain arithmetic, too.
 
 import numpy as np
 
-from mindrun.numbers.arithmetic import (
-    ANGLE,
-    BOX_COLUMNS,
-    COSINE,
-    HALF_X,
-    HALF_Y,
-    SINE,
-    SPEED_X,
-    SPEED_Y,
-    SPIN,
-    X,
-    Y,
-    length,
-    motion_of,
-    next_middle,
-    place_of,
-    pose_of,
-    put_thing,
-    sine_cosine,
-    size_of,
-    uniform,
-)
+from mindrun.numbers.arithmetic import *
 from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PERSISTENCE_TICKS, PUSH, STEERING, TORQUE, Tables
 from mindrun.sim.lanes.act import carry
-from mindrun.sim.lanes.loose import approach_loose, could_touch, seek, slide, slow_down
+from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_down, wanted_way
 from mindrun.sim.lanes.placement import at_drawn
 from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
 from mindrun.sim.lanes.solid import CLOSED_UNITS, find_swift, is_barred, is_free, within
@@ -213,7 +192,7 @@ def walk(tables: Tables, world: WorldState, lanes: int) -> None:
 def chase(tables, world, i, x, y, lane):
     """Step straight towards the nearest that a walker seeks, or away from what it flees; True if it could."""
     walker = tables.walkers[i]
-    dx, dy = seek(world, walker, x, y, lane)
+    dx, dy = wanted_way(world, walker, x, y, lane)
     if np.isnan(dx) or (dx == 0.0 and dy == 0.0):
         return not np.isnan(dx)
     step, half = world.numbers[walker.step, lane], size_of(world.things, walker.thing, lane) / 2

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from mindrun.numbers.arithmetic import ANGLE, SPIN, F, X, Y, next_middle
+from mindrun.numbers.arithmetic import *
 from mindrun.sim.c_library import POWER
 from mindrun.sim.codes import Tables
 from mindrun.sim.lanes.meeting import forget_old, let_go, touch_fixed, touch_movers

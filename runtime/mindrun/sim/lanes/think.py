@@ -1,6 +1,6 @@
 """Think: influence flows down the hierarchy (Eq. 2) and the skills that have some compute what they send (Eq. 1)."""
 
-from mindrun.numbers.arithmetic import NAN, ONE, ZERO, F, clamp, finite
+from mindrun.numbers.arithmetic import *
 from mindrun.numbers.stack_machine import evaluate
 from mindrun.sim.codes import Tables
 from mindrun.sim.kind_lanes import compute
