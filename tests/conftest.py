@@ -1,5 +1,6 @@
 """What all tests share."""
 
+import gc
 import os
 import signal
 import subprocess
@@ -28,6 +29,16 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 def pytest_xdist_auto_num_workers() -> int:
     """Of `--numprocesses auto`: twice as many as processors, for a test often waits for a program or a clock."""
     return 2 * cores()
+
+
+# What is imported and collected here stays until the end: it is not looked through for what is garbage, now or later.
+gc.disable()
+
+
+def pytest_collection_finish() -> None:
+    """Have what comes from now on be collected."""
+    gc.freeze()
+    gc.enable()
 
 
 # Hundreds of programs are started here, and each would compile all of its modules anew.
