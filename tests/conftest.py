@@ -1,5 +1,6 @@
 """What all tests share."""
 
+import gc
 import os
 import signal
 import subprocess
@@ -30,6 +31,16 @@ def pytest_xdist_auto_num_workers() -> int:
     return 2 * cores()
 
 
+# What is imported and collected here stays until the end: it is not looked through for what is garbage, now or later.
+gc.disable()
+
+
+def pytest_collection_finish() -> None:
+    """Have what comes from now on be collected."""
+    gc.freeze()
+    gc.enable()
+
+
 # Hundreds of programs are started here, and each would compile all of its modules anew.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
@@ -49,8 +60,10 @@ LONG = ("pages", "executors", "outside", "examples", "train", "sim", "engine", "
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Set the order of the tests, in which processes take them."""
+    first = "test_style.py"  # which has mypy, the longest of all where it has no cache
     ranks = dict.fromkeys(WITHOUT_SIMULATOR, 0) | dict.fromkeys(LONG, 1)
-    items.sort(key=lambda item: ranks.get(item.path.relative_to(Path(__file__).parent).parts[0], 2))
+    here = Path(__file__).parent
+    items.sort(key=lambda item: (item.path.name != first, ranks.get(item.path.relative_to(here).parts[0], 2)))
 
 
 @pytest.fixture

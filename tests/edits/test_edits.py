@@ -114,12 +114,12 @@ def hold(case: Case, after: str) -> None:
 
 
 def reshaped() -> list[object]:
-    """The cases that are tried in sources of every shape: two of each edit, or in the slow suite all."""
+    """The cases that are tried in sources of every shape: one of each edit, or in the slow suite all."""
     found, seen = list[object](), Counter[str]()
     for case in CASES:
         if not case.refused and case.edit not in ("scenario3", "fold"):  # no comment is lost
             seen[case.edit] += 1
-            marks = [pytest.mark.slow] if seen[case.edit] > 2 else []
+            marks = [pytest.mark.slow] if seen[case.edit] > 1 else []
             found.append(pytest.param(case, marks=marks, id=f"{case.edit}: {case.title}"))
     return found
 

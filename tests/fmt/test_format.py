@@ -15,6 +15,7 @@ from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.format import formatted
 from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source, Span
+from tests.draws import cases as cases_drawn
 from tests.language.examples import EXAMPLES, RIGHT
 
 TEXTS = [path.read_text(encoding="utf-8") for path in (RIGHT, *EXAMPLES)]
@@ -55,26 +56,32 @@ def test_the_examples_are_tidy(text: str) -> None:
     assert formatted(text) == text
 
 
-@pytest.mark.parametrize("seed", range(200))
-def test_spaces_are_restored(seed: int) -> None:
-    rng = Random(seed)
-    text = rng.choice(TEXTS)
-
-    def untidy(line: str) -> str:
-        code, mark, comment = line.partition("#")
-        words = [rng.choice((" ", "  ", "\t ")).join(code.split())]
-        indent = " \t"[: rng.randrange(3)] if code.strip() or line[:1].isspace() else ""
-        indent = indent or " " * (not code.strip() and line[:1].isspace())
-        return f"{indent}{words[0]}{rng.choice(('', ' ', chr(9))) if code.strip() else ''}{mark}{comment}"
-
-    end = rng.choice(("\n", "\r\n"))
-    lines = [untidy(line) + rng.choice(("", " ", "\t")) for line in text.removesuffix("\n").split("\n")]
-    assert formatted(end.join(lines)) == text.replace("\n", end)
+def untidy(line: str, rng: Random) -> str:
+    """A line with other spaces between its words, before and behind them."""
+    code, mark, comment = line.partition("#")
+    words = [rng.choice((" ", "  ", "\t ")).join(code.split())]
+    indent = " \t"[: rng.randrange(3)] if code.strip() or line[:1].isspace() else ""
+    indent = indent or " " * (not code.strip() and line[:1].isspace())
+    end = rng.choice(("", " ", "\t"))
+    return f"{indent}{words[0]}{rng.choice(('', ' ', chr(9))) if code.strip() else ''}{mark}{comment}{end}"
 
 
-@pytest.mark.parametrize("seed", range(300))
-def test_whatever_it_is_given(seed: int) -> None:
-    rng = Random(seed)
+def test_spaces_are_restored() -> None:
+    rng = Random(1)
+    for _ in range(cases_drawn(500)):
+        text, end = rng.choice(TEXTS), rng.choice(("\n", "\r\n"))
+        lines = [untidy(line, rng) for line in text.removesuffix("\n").split("\n")]
+        assert formatted(end.join(lines)) == text.replace("\n", end)
+
+
+def test_whatever_it_is_given() -> None:
+    rng = Random(1)
+    for _ in range(cases_drawn(750)):
+        holds(spoilt(rng))
+
+
+def spoilt(rng: Random) -> str:
+    """An example of which some lines are others, gone, or elsewhere."""
     lines = rng.choice(TEXTS).split("\n")
     for _ in range(rng.randrange(1, 9)):
         at = rng.randrange(len(lines))
@@ -92,7 +99,7 @@ def test_whatever_it_is_given(seed: int) -> None:
             case 5:
                 lines[at], lines[0] = lines[0], lines[at]
         lines = lines or [""]
-    holds("\n".join(lines))
+    return "\n".join(lines)
 
 
 def cases() -> list[tuple[str, str, str]]:

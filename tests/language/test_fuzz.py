@@ -115,6 +115,7 @@ def words() -> dict[str, st.SearchStrategy[str]]:
     }
 
 
+@cache
 def from_grammar(start: str) -> st.SearchStrategy[str]:
     """Sources, or single lines, as the grammar makes them, with spaces between its own words."""
     ends = {"_NL": st.just("\n")} if start == "start" else {}
@@ -124,15 +125,19 @@ def from_grammar(start: str) -> st.SearchStrategy[str]:
     )
 
 
+PROGRAMS = st.deferred(lambda: from_grammar("start"))
+LINES = st.deferred(lambda: from_grammar("line"))
+
+
 @relaxed
-@given(from_grammar("start"))
+@given(PROGRAMS)
 def test_programs_from_the_grammar(text: str) -> None:
     with one_in_eight(len(text), MOST_CALLS):
         sane(compile_source(Source("fuzz.mind", text, Path(__file__).parent)))
 
 
 @relaxed
-@given(st.lists(from_grammar("line"), min_size=1, max_size=3))
+@given(st.lists(LINES, min_size=1, max_size=3))
 def test_lines_from_the_grammar_below_a_right_program(lines: list[str]) -> None:
     text = RIGHT.read_text(encoding="utf-8") + "\n".join(lines)
     with one_in_eight(len(text), MOST_CALLS):
@@ -149,7 +154,7 @@ def read_whole(text: str) -> bool:
 
 
 @settings(relaxed, max_examples=cases(400))
-@given(st.lists(from_grammar("line") | st.sampled_from(RIGHT.read_text(encoding="utf-8").split("\n")), max_size=4))
+@given(st.lists(LINES | st.sampled_from(RIGHT.read_text(encoding="utf-8").split("\n")), max_size=4))
 def test_line_by_line_is_the_same_language_as_the_whole_file(lines: list[str]) -> None:
     text = "\n".join(lines)
     findings = Findings()
@@ -206,7 +211,7 @@ def same_as_lark(code: str) -> None:
 
 
 @settings(relaxed, max_examples=cases(300))
-@given(from_grammar("line"))
+@given(LINES)
 def test_lines_of_one_shape_have_one_tree(code: str) -> None:
     same_as_lark(code)
 

@@ -34,18 +34,18 @@ def entries() -> list[Entry]:
     return [Entry(page, *part.split("\n", 1)) for page, part in found if not part.startswith(LAST)]
 
 
-@pytest.mark.parametrize("word", language_words())
-def test_a_word_is_in_the_index(word: str) -> None:
-    said = re.findall("`([^`]+)`", INDEX.read_text(encoding="utf-8"))
-    assert any(f" {word} " in f" {each} " for each in said)
+def test_every_word_is_in_the_index() -> None:
+    said = " , ".join(re.findall("`([^`]+)`", INDEX.read_text(encoding="utf-8")))
+    assert [word for word in language_words() if f" {word} " not in f" {said} "] == []
 
 
-@pytest.mark.parametrize("entry", entries(), ids=str)
-def test_an_entry_is_in_the_index_and_shows_its_words(entry: Entry) -> None:
-    anchor = re.sub(r"[^\w -]", "", entry.title.lower()).replace(" ", "-")
-    assert f"(language/{entry.page.name}#{anchor})" in INDEX.read_text(encoding="utf-8")
-    shown = "".join(re.findall(r"^```(?:mind|diff) .*?^```", entry.text, re.DOTALL | re.MULTILINE))
-    assert [word for word in re.findall("`([^`]+)`", entry.title) if word not in shown] == []
+def test_an_entry_is_in_the_index_and_shows_its_words() -> None:
+    index = INDEX.read_text(encoding="utf-8")
+    for entry in entries():
+        anchor = re.sub(r"[^\w -]", "", entry.title.lower()).replace(" ", "-")
+        assert f"(language/{entry.page.name}#{anchor})" in index
+        shown = "".join(re.findall(r"^```(?:mind|diff) .*?^```", entry.text, re.DOTALL | re.MULTILINE))
+        assert [word for word in re.findall("`([^`]+)`", entry.title) if word not in shown] == [], str(entry)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)

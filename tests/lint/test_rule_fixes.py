@@ -1,4 +1,4 @@
-"""What a rule offers to do: the mind compiles afterwards, and the rule has one finding less."""
+"""What a rule says of the wrong examples that explain it, and offers to do: it has one finding less afterwards."""
 
 from pathlib import Path
 
@@ -21,18 +21,15 @@ def found(code: str, main: Path) -> list[Diagnostic]:
 
 
 @pytest.mark.parametrize(("code", "text"), BAD, ids=[code for code, _ in BAD])
-def test_a_fix_mends_its_finding(code: str, text: str, tmp_path: Path) -> None:
+def test_a_wrong_example_is_told_in_sentences_and_mended_by_each_fix(code: str, text: str, tmp_path: Path) -> None:
     main = whole(text, tmp_path)
     before = main.read_text()
     diagnostics = found(code, main)
+    assert code in {each.code for each in diagnostics}
+    for each in diagnostics:
+        assert each.message.endswith(".")
+        assert each.hint.endswith(".") or ": mindc edit " in each.hint, "a command ends where it is pasted"
     for fix in (each.fix for each in diagnostics if each.fix):
         main.write_text(spliced(fix.splices[0].source, fix.splices))
         assert len(found(code, main)) < len(diagnostics)
         main.write_text(before)
-
-
-@pytest.mark.parametrize(("code", "text"), BAD, ids=[code for code, _ in BAD])
-def test_findings_are_sentences(code: str, text: str, tmp_path: Path) -> None:
-    for each in found(code, whole(text, tmp_path)):
-        assert each.message.endswith(".")
-        assert each.hint.endswith(".") or ": mindc edit " in each.hint, "a command ends where it is pasted"

@@ -262,7 +262,6 @@ curriculum School is genetic population 8
 """
 GRAPH = compiled(MIND)
 LOCK = taught(GRAPH)
-GRAPHS = [GRAPH, *(compiled(MIND.replace(WHEELS, robot)) for robot in OTHER_ROBOTS), compiled(OUTSIDE)]
 
 
 def is_noticed(graph: Graph, skill: str = "Top", lock: Lock = LOCK) -> bool:
@@ -326,30 +325,21 @@ def _parts_of_robots() -> Iterator[tuple[Graph, str, Any]]:
     """All of one mind, and of the others what it has not."""
     yield from ((GRAPH, noun, kind) for noun, kind in _parts(GRAPH))
     known = {type(kind) for _, kind in _parts(GRAPH)}
-    for graph in GRAPHS[1:]:
+    for graph in (*(compiled(MIND.replace(WHEELS, robot)) for robot in OTHER_ROBOTS), compiled(OUTSIDE)):
         yield from ((graph, noun, kind) for noun, kind in _parts(graph) if type(kind) not in known)
 
 
-ARGUMENTS = [
-    pytest.param(graph, noun, kind, argument, id=f"{noun}-{names()[type(kind)]}-{argument.key}")
-    for graph, noun, kind in _parts_of_robots()
-    for argument in arguments(type(kind))
-]
-
-
-@pytest.mark.parametrize(("graph", "noun", "kind", "argument"), ARGUMENTS)
-def test_every_argument_of_every_kind_is_noticed(graph: Graph, noun: str, kind: Any, argument: Any) -> None:
-    if (noun, names()[type(kind)], argument.field) in NEED_NOT_BE_NOTICED:
-        return
-    old = getattr(kind, argument.field)
-    new = replace(kind, **{argument.field: _another(old, argument.type)})
-    changed = _exchanged(graph, kind, new)
-    assert changed != graph
-    taught_skill = next((lesson.skill for lesson in GRAPH.lessons if lesson.learner is kind), "Top")
-    learner = next((skill.name for skill in GRAPH.skills if skill.function is kind and genes(skill)), taught_skill)
-    assert is_noticed(changed, learner, LOCK if graph is GRAPH else taught(graph)), (
-        f"{noun} {kind} with {argument.key} {new}"
-    )
+def test_every_argument_of_every_kind_is_noticed() -> None:
+    for graph, noun, kind in _parts_of_robots():
+        taught_skill = next((lesson.skill for lesson in GRAPH.lessons if lesson.learner is kind), "Top")
+        learner = next((skill.name for skill in GRAPH.skills if skill.function is kind and genes(skill)), taught_skill)
+        lock = LOCK if graph is GRAPH else taught(graph)
+        for argument in arguments(type(kind)):
+            if (noun, names()[type(kind)], argument.field) not in NEED_NOT_BE_NOTICED:
+                new = replace(kind, **{argument.field: _another(getattr(kind, argument.field), argument.type)})
+                changed = _exchanged(graph, kind, new)
+                assert changed != graph
+                assert is_noticed(changed, learner, lock), f"{noun} {kind} with {argument.key} {new}"
 
 
 def test_the_mind_of_these_tests_has_every_kind() -> None:

@@ -39,11 +39,11 @@ OF_A_PART = {"unwired-sensor", "unwired-actuator", "unknown-sensor"}  # what a r
 ALL = [block for page in pages() if page not in MADE for block in blocks(page)]
 
 
-def of(language: str, rest: str = "") -> list[object]:
-    """The blocks in a language, for pytest."""
-    return [
-        pytest.param(each, id=str(each)) for each in ALL if each.language == language and each.rest.startswith(rest)
-    ]
+def of(language: str, rest: str = "") -> list[Block]:
+    """The blocks in a language."""
+    found = [each for each in ALL if each.language == language and each.rest.startswith(rest)]
+    assert found
+    return found
 
 
 def test_every_block_is_in_a_language_that_is_held_or_listed() -> None:
@@ -52,39 +52,40 @@ def test_every_block_is_in_a_language_that_is_held_or_listed() -> None:
     assert {each.language for each in ALL} == held
 
 
-@pytest.mark.parametrize("block", of("text"))
-def test_what_is_no_code_has_no_command(block: Block) -> None:
-    assert [line for line in block.text.splitlines() if line.split()[:1] in (["$"], ["mindc"], ["mindrun"])] == []
+def test_what_is_no_code_has_no_command() -> None:
+    lines = [(str(block), line) for block in of("text") for line in block.text.splitlines()]
+    assert [each for each in lines if each[1].split()[:1] in (["$"], ["mindc"], ["mindrun"])] == []
 
 
-@pytest.mark.parametrize("block", of(TERMINAL))
-def test_what_is_typed_is_what_the_programs_take(block: Block, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_typed_is_what_the_programs_take(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("scheduler.json").write_text('{"address": "tls://head:8786"}')  # at which --on looks at once
     Path("tls.pem").touch()
-    lines = typed(block.text)
-    assert lines
-    assert subprocess.run(["bash", "-n"], input="\n".join(lines), text=True, check=False).returncode == 0
-    words = [call for line in lines for call in calls(line)]
     foreign = {name for names in NOT_OURS for name in names.split()}
-    assert {program_of(call) for call in words} <= foreign | PROGRAMS.keys()
-    assert [(call, why) for call in words if (why := refused(call))] == []
+    lines = {str(block): typed(block.text) for block in of(TERMINAL)}
+    script = "".join(f"# {block}\n" + "\n".join(typed) + "\n" for block, typed in lines.items())
+    said = subprocess.run(["bash", "-n"], input=script, capture_output=True, text=True, check=False)
+    assert (said.returncode, said.stderr) == (0, ""), script
+    for block, typed_there in lines.items():
+        words = [call for line in typed_there for call in calls(line)]
+        assert words, block
+        assert {program_of(call) for call in words} <= foreign | PROGRAMS.keys(), block
+        assert [(call, why) for call in words if (why := refused(call))] == [], block
 
 
-@pytest.mark.parametrize("block", of("mind"))
-def test_what_is_shown_of_the_language_is_a_file_that_is_run_or_part_of_an_example(block: Block) -> None:
+def test_what_is_shown_of_the_language_is_a_file_that_is_run_or_part_of_an_example() -> None:
     example = (COLLECT / "collect.mind").read_text(encoding="utf-8")
-    if block.page in EXCERPTS:
-        assert all(part.strip() in example for part in block.text.split("\n\n"))
-    else:
-        assert block.rest
+    excerpts = [block for block in of("mind") if block.page in EXCERPTS]
+    assert excerpts
+    assert [part for block in excerpts for part in block.text.split("\n\n") if part.strip() not in example] == []
+    assert [str(block) for block in of("mind") if block.page not in EXCERPTS and not block.rest] == []
 
 
-@pytest.mark.parametrize("block", of("python"))
-def test_a_program_is_python(block: Block) -> None:
+def test_a_program_is_python() -> None:
     """What of it can be run here is, in `test_pages`."""
-    compile(block.text, str(block), "exec")
-    assert runnable([block.text])[1] in ([], ["gymnasium"], ["stable_baselines3"], ["torch"])
+    for block in of("python"):
+        compile(block.text, str(block), "exec")
+        assert runnable([block.text])[1] in ([], ["gymnasium"], ["stable_baselines3"], ["torch"]), str(block)
 
 
 def test_robots_are_wired_as_the_schema_and_the_compiler_have_it(tmp_path: Path) -> None:
@@ -101,21 +102,17 @@ def test_robots_are_wired_as_the_schema_and_the_compiler_have_it(tmp_path: Path)
         assert {each.code for each in load_wiring(tmp_path / "robot.yaml", graph).diagnostics} <= OF_A_PART
 
 
-@pytest.mark.parametrize("block", of("toml", "mind.toml"))
-def test_settings_are_read_by_what_reads_settings(block: Block, tmp_path: Path) -> None:
-    (tmp_path / "mind.toml").write_text(block.text, encoding="utf-8")
-    assert settings_of(tmp_path / "mind.toml")
+def test_settings_are_read_by_what_reads_settings(tmp_path: Path) -> None:
+    for block in of("toml", "mind.toml"):
+        (tmp_path / "mind.toml").write_text(block.text, encoding="utf-8")
+        assert settings_of(tmp_path / "mind.toml"), str(block)
 
 
-@pytest.mark.parametrize("block", [*of("toml"), *of("json"), *of("yaml")])
-def test_what_other_programs_read_has_their_form(block: Block) -> None:
-    match block.language:
-        case "toml":
-            assert tomllib.loads(block.text)
-        case "json":
-            assert json.loads(f"{{{block.text}}}")
-        case "yaml":
-            yaml.safe_load(block.text)
+def test_what_other_programs_read_has_their_form() -> None:
+    assert [block for block in of("toml") if not tomllib.loads(block.text)] == []
+    assert [block for block in of("json") if not json.loads(f"{{{block.text}}}")] == []
+    for block in of("yaml"):
+        yaml.safe_load(block.text)
 
 
 def test_the_hooks_before_a_commit_are_there() -> None:
@@ -137,8 +134,8 @@ def test_the_examples_of_each_command_are_what_it_takes(tmp_path: Path, monkeypa
 SAID = re.compile(r"`(mind(?:c|run) [a-z]+(?: [^`]+)?)`")
 
 
-@pytest.mark.parametrize("page", [page for page in pages() if page not in MADE])
-def test_what_sentences_say_of_the_programs_is_there(page: str) -> None:
+def test_what_sentences_say_of_the_programs_is_there() -> None:
     """`mindc run --video`: the command, and each of its options."""
-    text = re.sub(r"^ *```.*?^ *```$", "", (ROOT / page).read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
-    assert [said for said in SAID.findall(text) if not is_known(said)] == []
+    fenced = re.compile(r"^ *```.*?^ *```$", re.DOTALL | re.MULTILINE)
+    texts = {page: fenced.sub("", (ROOT / page).read_text(encoding="utf-8")) for page in pages() if page not in MADE}
+    assert [(page, said) for page, text in texts.items() for said in SAID.findall(text) if not is_known(said)] == []

@@ -5,8 +5,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
-import pytest
 from mindrun.kinds.functions.function import Function
 from mindrun.kinds.registry import arguments, bases, kinds
 from mindrun.kinds.sensors.sensor import SensorKind
@@ -41,82 +41,74 @@ MAY_ASK = {
 }
 
 
-def every(*nouns: str) -> pytest.MarkDecorator:
-    """All kinds of these nouns."""
-    return pytest.mark.parametrize(("noun", "name"), [(noun, name) for noun in nouns for name in kinds(noun)])
+def every(*nouns: str) -> Iterator[tuple[str, str, type[Any]]]:
+    """All kinds of these nouns, each with its noun and its name."""
+    for noun in nouns:
+        assert kinds(noun)
+        yield from ((noun, name, cls) for name, cls in kinds(noun).items())
 
 
-@pytest.mark.parametrize("noun", NOUNS)
-def test_every_noun_has_kinds(noun: str) -> None:
-    assert kinds(noun)
+def test_every_kind_says_what_it_is() -> None:
+    for _, name, cls in every(*NOUNS):
+        assert not str(cls.__doc__).startswith(f"{cls.__name__}("), f"{name} has no docstring: what is it to a reader?"
 
 
-@every(*NOUNS)
-def test_every_kind_says_what_it_is(noun: str, name: str) -> None:
-    cls = kinds(noun)[name]
-    assert not str(cls.__doc__).startswith(f"{cls.__name__}("), f"{name} has no docstring: what is it to a reader?"
+def test_every_kind_says_all_that_the_program_asks() -> None:
+    for noun, name, cls in every(*sorted({*bases().values()} & {*NOUNS})):
+        base = next(cls for cls, of in bases().items() if of == noun)
+        assert issubclass(cls, base), f"{name} is no {base.__name__}: the program could not ask it"
 
 
-@every(*sorted({*bases().values()} & {*NOUNS}))
-def test_every_kind_says_all_that_the_program_asks(noun: str, name: str) -> None:
-    base = next(cls for cls, of in bases().items() if of == noun)
-    assert issubclass(kinds(noun)[name], base), f"{name} is no {base.__name__}: the program could not ask it"
+def test_every_kind_has_the_arguments_of_its_noun() -> None:
+    for noun, name, cls in every(*COMMON):
+        missing = {field for field in COMMON[noun] if not hasattr(cls, field)}
+        assert not missing, f"{name} does not take {missing}"
 
 
-@every(*COMMON)
-def test_every_kind_has_the_arguments_of_its_noun(noun: str, name: str) -> None:
-    missing = {field for field in COMMON[noun] if not hasattr(kinds(noun)[name], field)}
-    assert not missing, f"{name} does not take {missing}"
+def test_every_kind_is_simulated() -> None:
+    for noun, name, cls in every(*CODES):
+        is_simulated = name in CODES[noun] or getattr(cls, "is_obstacle", False)
+        assert is_simulated, f"sim/codes.py has no code for {name}, so no lane knows what to do with it"
 
 
-@every(*CODES)
-def test_every_kind_is_simulated(noun: str, name: str) -> None:
-    is_simulated = name in CODES[noun] or getattr(kinds(noun)[name], "is_obstacle", False)
-    assert is_simulated, f"sim/codes.py has no code for {name}, so no lane knows what to do with it"
+def test_every_sensor_has_a_lane_function() -> None:
+    for _, name, cls in every("sensor"):
+        assert cls.lane is not SensorKind.lane, f"{name} does not say what it reads in the lanes"
 
 
-@every("sensor")
-def test_every_sensor_has_a_lane_function(noun: str, name: str) -> None:
-    assert kinds(noun)[name].lane is not SensorKind.lane, f"{name} does not say what it reads in the lanes"
-
-
-@every("skill")
-def test_every_function_is_the_same_in_both_executors(noun: str, name: str) -> None:
+def test_every_function_is_the_same_in_both_executors() -> None:
     """One that says what it computes for the engine says it for the lanes; a procedure is called by its address."""
-    cls = kinds(noun)[name]
-    is_one = (cls.forward is not Function.forward) == (cls.lane is not Function.lane)
-    assert is_one or name == "procedure", f"{name} says what it computes for the engine or for the lanes alone"
+    for _, name, cls in every("skill"):
+        is_one = (cls.forward is not Function.forward) == (cls.lane is not Function.lane)
+        assert is_one or name == "procedure", f"{name} says what it computes for the engine or for the lanes alone"
 
 
-@every("sensor", "event", "measure")
-def test_every_kind_says_what_it_is_about(noun: str, name: str) -> None:
-    cls = kinds(noun)[name]
-    one = cls(**{argument.field: f"its {argument.key}" for argument in arguments(cls)})
-    things = [f"its {argument.key}" for argument in arguments(cls) if argument.type == THING]
-    assert [one.thing] == (things[:1] or [""]), f"{name} does not say which thing it is about"
-    about = [thing for thing, kind in kinds("content").items() if cls.is_about(kind)]
-    assert about, f"{name} can be about no kind of thing"
+def test_every_kind_says_what_it_is_about() -> None:
+    for _, name, cls in every("sensor", "event", "measure"):
+        one = cls(**{argument.field: f"its {argument.key}" for argument in arguments(cls)})
+        things = [f"its {argument.key}" for argument in arguments(cls) if argument.type == THING]
+        assert [one.thing] == (things[:1] or [""]), f"{name} does not say which thing it is about"
+        about = [thing for thing, kind in kinds("content").items() if cls.is_about(kind)]
+        assert about, f"{name} can be about no kind of thing"
 
 
-@every("content")
-def test_every_thing_says_what_becomes_of_it(noun: str, name: str) -> None:
-    cls = kinds(noun)[name]
-    said = {field.name for field in fields(cls)} & OUTCOMES
-    one = cls(**{argument.field: () for argument in arguments(cls) if argument.required})
-    assert {*one.outcomes} == said, f"{name} takes {said or 'no outcome'} and has other outcomes"
+def test_every_thing_says_what_becomes_of_it() -> None:
+    for _, name, cls in every("content"):
+        said = {field.name for field in fields(cls)} & OUTCOMES
+        one = cls(**{argument.field: () for argument in arguments(cls) if argument.required})
+        assert {*one.outcomes} == said, f"{name} takes {said or 'no outcome'} and has other outcomes"
 
 
-@every("content")
-def test_every_thing_has_its_colours(noun: str, name: str) -> None:
-    is_drawn = kinds(noun)[name].is_obstacle or (name in PAPER.things and name in NIGHT.things)
-    assert is_drawn, f"pictures/theme.py has no colours for {name}"
+def test_every_thing_has_its_colours() -> None:
+    for _, name, cls in every("content"):
+        is_drawn = cls.is_obstacle or (name in PAPER.things and name in NIGHT.things)
+        assert is_drawn, f"pictures/theme.py has no colours for {name}"
 
 
-@every("actuator", "content", "measure", "event", "task")
-def test_every_kind_is_drawn_by_the_tests(noun: str, name: str) -> None:
-    cls = kinds(noun)[name]
+def test_every_kind_is_drawn_by_the_tests() -> None:
     drawn = {node.id for path in GENERATORS for node in nodes(path) if isinstance(node, ast.Name)}
-    assert cls.__name__ in drawn, f"no test of the lanes ever draws a {name}: tests/sim/worlds.py does not know it"
+    for _, name, cls in every("actuator", "content", "measure", "event", "task"):
+        assert cls.__name__ in drawn, f"no test of the lanes ever draws a {name}: tests/sim/worlds.py does not know it"
 
 
 def asked(path: Path) -> list[str]:

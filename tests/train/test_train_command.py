@@ -47,7 +47,7 @@ curriculum Rest is genetic population 8
 """
 
 TRAIN = (sys.executable, "-c", "from mindlang.cli import main; main()", "train")
-LONG = ("drive.mind", "Go", "--seed", "3", "--generations", "400", "--from-scratch", "--json")
+LONG = ("drive.mind", "Go", "--seed", "3", "--generations", "200", "--from-scratch", "--json")
 
 
 def train_apart(folder: Path, *arguments: str) -> "subprocess.CompletedProcess[str]":
