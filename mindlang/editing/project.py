@@ -24,14 +24,15 @@ from mindlang.compiler.syntax import (
     Contains,
     Declaration,
     Draws,
-    Drives,
     File,
     Influences,
     Master,
     Name,
     Number,
     Reads,
+    Sends,
     of_form,
+    verb_of,
 )
 from mindlang.editing.neighbours import neighbours
 from mindlang.lock import lock_sources
@@ -155,11 +156,10 @@ class Project:
         hint = f"Say which: {say.format(found[0].header.noun.text)}"
         raise EditError(f"There are {len(found)} declarations called {name}.", hint, labels[0].span, *labels[1:])
 
-    def refuse_existing(self, skill: Declaration, form: type[Reads | Drives | Influences], name: str) -> None:
+    def refuse_existing(self, skill: Declaration, verb: str, name: str) -> None:
         """EditError where a skill reads, drives or influences something already."""
-        for fact in of_form(skill.facts, form):
-            if fact.name.text == name:
-                verb = form.__name__.lower()
+        for fact in skill.facts:
+            if isinstance(fact, Reads | Sends) and (verb_of(fact), fact.name.text) == (verb, name):
                 raise EditError(f"{skill.header.name.text} already {verb} {name}.", "", fact.span)
 
     def refuse_used(self, noun: str, name: str, but: Sequence[Declaration]) -> None:

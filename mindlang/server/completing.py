@@ -30,7 +30,6 @@ from mindlang.compiler.resolve.kinds import about
 from mindlang.compiler.resolve.layouts import HARD
 from mindlang.compiler.source import Source
 from mindlang.compiler.syntax import Amount, Declaration, Header, Phrase, Teaches
-from mindlang.editing.insertion import OWNERS
 from mindlang.files import files_below
 from mindlang.server.offers import (
     Offer,
@@ -151,7 +150,7 @@ def _offers(line: CursorLine) -> Iterator[Offer]:
         case [] if line.start == "stop":
             yield from words("stop")
         case []:  # the verbs that fit the declaration above, then what else begins a line
-            own = OWNERS.get(line.above.header.noun.text, ()) if line.above else ()
+            own = syntax.VERBS_OF.get(line.above.header.noun.text, ()) if line.above else ()
             yield from words(*own, *syntax.NOUNS, *syntax.SETTINGS)
         case [*_, "least" | "greatest"]:
             yield Offer("of", "word")

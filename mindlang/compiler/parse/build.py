@@ -41,7 +41,7 @@ def build_line(tree: Tree[Token], source: Source, offset: int) -> syntax.Line | 
 
 @v_args(meta=True)
 class Builder(Transformer_NonRecursive[Token, Any]):
-    """A method for each rule that is no struct of `syntax` as it stands; it takes where the rule stands and what its parts became.
+    """A method for each rule that is no struct of `syntax` as it stands: of where it is and what its parts became.
 
     Names have become `Name` before; signs, units and numbers are still tokens.
     """

@@ -52,7 +52,7 @@ def lessons(
         names, *known, {each.name: type(each.kind).__name__ for each in sensors}, widths, root, findings
     )
     for name, declaration in names.declarations("curriculum"):
-        refuse_facts(declaration, ("teaches",), findings)
+        refuse_facts(declaration, findings)
         phrase = declaration.header.phrase
         learner = make_kind("curriculum", phrase, Scope(names, None), findings) if phrase else None
         taught = of_form(declaration.facts, Teaches)

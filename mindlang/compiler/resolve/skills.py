@@ -21,7 +21,6 @@ from mindlang.compiler.resolve.parts import ONE_OF_TWO, promises, refuse_facts, 
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Chooses, Declaration, Drives, Influences, Reads, Sends, Stays, Uses, of_form
 
-FACTS = ("reads", "drives", "influences", "chooses", "stays", "uses", "requires", "maintains", "achieves")
 STATES: Mapping[type[Stays] | type[Chooses], tuple[str, str]] = {Stays: ("stay", "frozen"), Chooses: ("choose", "one")}
 
 
@@ -51,7 +50,7 @@ def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple
 def _skill(
     name: str, declaration: Declaration, names: Names, widths: Mapping[str, int], findings: Findings
 ) -> model.Skill:
-    refuse_facts(declaration, FACTS, findings)
+    refuse_facts(declaration, findings)
     phrase = declaration.header.phrase
     function: Any = make_kind("skill", phrase, Scope(names, None), findings) if phrase else None
     reads = _reads(declaration, names, findings)

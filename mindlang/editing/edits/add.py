@@ -8,7 +8,7 @@ from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import Declaration, Fact, File, Number
+from mindlang.compiler.syntax import Declaration, Fact, File, Number, verb_of
 from mindlang.editing import insertion
 from mindlang.editing.project import EditError, MindChange, Project
 
@@ -68,9 +68,9 @@ def _indented(declaration: Declaration) -> list[str]:
 
 def _facts(declaration: Declaration, said: Sequence[Fact]) -> Iterator[Splice]:
     """Each verb's facts below those that there are."""
-    for form in insertion.FACTS:
-        if texts := [text for fact in said if isinstance(fact, form) for text in insertion.commented(fact)]:
-            yield insertion.below_siblings(declaration, form, texts)
+    for verb in insertion.FACTS:
+        if texts := [text for fact in said if verb_of(fact) == verb for text in insertion.commented(fact)]:
+            yield insertion.below_siblings(declaration, verb, texts)
 
 
 def _read(lines: list[str], header: str = "") -> File:

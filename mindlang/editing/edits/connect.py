@@ -3,12 +3,10 @@
 from typing import Annotated
 
 from mindlang.compiler.diagnostic import a
-from mindlang.compiler.syntax import Drives, Influences, Reads
 from mindlang.editing.insertion import below_siblings
 from mindlang.editing.project import EditError, MindChange, Project, refuse_lines
 
-Verb = type[Reads] | type[Drives] | type[Influences]
-VERBS: dict[str, Verb] = {"skill": Influences, "actuator": Drives, "memory": Drives, "sensor": Reads}
+VERBS = {"skill": "influences", "actuator": "drives", "memory": "drives", "sensor": "reads"}
 
 
 def connect(
@@ -30,11 +28,11 @@ def connect(
     refuse_lines(at)
     is_sent = drives or bool(at)
     noun = project.find(target, *(VERBS if is_sent else reversed(VERBS))).header.noun.text
-    form: Verb = Reads if noun == "memory" and not is_sent else VERBS[noun]
-    if form is Reads and is_sent:
+    verb = "reads" if noun == "memory" and not is_sent else VERBS[noun]
+    if verb == "reads" and is_sent:
         raise EditError(f"{target} is {a(noun)}, which is read.", "Leave --at and --drives out.")
-    if drives and form is Influences:
+    if drives and verb == "influences":
         raise EditError(f"{target} is a skill, which is influenced.", "Leave --drives out.")
-    project.refuse_existing(declaration, form, target)
+    project.refuse_existing(declaration, verb, target)
     value = f" at {at}" if at else ""
-    return MindChange((below_siblings(declaration, form, [f"{form.__name__.lower()} {target}{value}"]),))
+    return MindChange((below_siblings(declaration, verb, [f"{verb} {target}{value}"]),))

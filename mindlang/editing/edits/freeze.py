@@ -15,4 +15,4 @@ def freeze(project: Project, skill: str) -> MindChange:
     declaration = project.own_skill(skill)
     if frozen := of_form(declaration.facts, Stays):
         raise EditError(f"{skill} is frozen already.", "", frozen[0].span)
-    return MindChange((below_siblings(declaration, Stays, ["stays frozen"]),))
+    return MindChange((below_siblings(declaration, "stays", ["stays frozen"]),))

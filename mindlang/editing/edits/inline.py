@@ -58,5 +58,5 @@ def _taken_over(parent: Declaration, child: Declaration) -> list[Splice]:
     terms = (term for expression in expressions_in(*edges) for term in expression.terms)
     needed = dict.fromkeys(term.kind.text for term in terms if isinstance(term, Phrase))
     if reads := [f"reads {name}" for name in needed if name not in read]:
-        splices.append(insertion.below_siblings(parent, Reads, reads))
+        splices.append(insertion.below_siblings(parent, "reads", reads))
     return splices

@@ -2,7 +2,6 @@
 
 from typing import Annotated
 
-from mindlang.compiler.syntax import Influences, Reads
 from mindlang.editing.insertion import below_siblings
 from mindlang.editing.project import EditError, MindChange, Project, influence, kind_of
 
@@ -27,15 +26,14 @@ def integrate(
     declaration = project.own_skill(skill)
     for other in with_:
         project.find(other, "skill")
-        project.refuse_existing(declaration, Influences, other)
+        project.refuse_existing(declaration, "influences", other)
     for reading in reads:
         project.find(reading, "sensor", "memory")
-        project.refuse_existing(declaration, Reads, reading)
+        project.refuse_existing(declaration, "reads", reading)
     splices = []
     if reads:
-        splices.append(below_siblings(declaration, Reads, [f"reads {reading}" for reading in reads]))
+        splices.append(below_siblings(declaration, "reads", [f"reads {reading}" for reading in reads]))
     if with_:
-        splices.append(
-            below_siblings(declaration, Influences, [influence(kind_of(declaration), other) for other in with_])
-        )
+        lines = [influence(kind_of(declaration), other) for other in with_]
+        splices.append(below_siblings(declaration, "influences", lines))
     return MindChange(tuple(splices))

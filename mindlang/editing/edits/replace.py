@@ -3,7 +3,6 @@
 from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.model import Node
-from mindlang.compiler.syntax import Influences
 from mindlang.editing.insertion import replace_span
 from mindlang.editing.project import EditError, MindChange, Project, Replaced
 
@@ -26,7 +25,7 @@ def replace(project: Project, skill: str, new: str) -> MindChange:
     places = [place for place in project.places(skill) if place.by is not declaration]
     for place in places:
         if place.by:
-            project.refuse_existing(place.by, Influences, new)
+            project.refuse_existing(place.by, "influences", new)
     if not places:
         message = f"{skill} has no place: it is not the master, and no skill but {new} influences it."
         raise EditError(message, "", declaration.header.name.span)
