@@ -25,8 +25,7 @@ from mindlang.cli._diagnostic_printer import as_data, plain
 from mindlang.compiler.comparison import mind_differences
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.format import format_splices, formatted
-from mindlang.compiler.source import Source
-from mindlang.compiler.splice import spliced
+from mindlang.compiler.source import Source, spliced
 from mindlang.lint.lint import lint
 from mindlang.lock.report import rows
 from mindlang.lock.status import NotLearning, status

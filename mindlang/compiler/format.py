@@ -11,8 +11,7 @@ from itertools import accumulate, pairwise
 
 from mindlang.compiler.parse import BLANKS, without_comment
 from mindlang.compiler.parse.shape import MAX_SHAPES, Start, grammar, pieces, shape_of
-from mindlang.compiler.source import Source
-from mindlang.compiler.splice import Splice
+from mindlang.compiler.source import Source, Splice
 from mindlang.compiler.syntax import NOUNS, SETTINGS, VERBS_OF
 
 INDENT = "  "

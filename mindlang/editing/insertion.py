@@ -3,8 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import takewhile
 
-from mindlang.compiler.source import Source, Span
-from mindlang.compiler.splice import Splice
+from mindlang.compiler.source import Source, Span, Splice
 from mindlang.compiler.syntax import PARTS, VERBS, VERBS_OF, Declaration, Fact, File, Use, verb_of
 
 INDENT = "  "

@@ -16,8 +16,7 @@ from mindlang.compiler.names import SHARED, Names
 from mindlang.compiler.parse import parse
 from mindlang.compiler.parse.explain import proper
 from mindlang.compiler.references import READABLE_NOUNS, VALUE_NOUNS, Mention, mentions
-from mindlang.compiler.source import Source, Span
-from mindlang.compiler.splice import Splice
+from mindlang.compiler.source import Source, Span, Splice
 from mindlang.compiler.syntax import (
     NOUNS,
     PARTS,

@@ -36,8 +36,7 @@ from mindrun.numbers.quantity import EXPRESSION, SENSOR, SERVO, SKILL, THING, Qu
 from mindlang.compiler.names import Names
 from mindlang.compiler.parse.shape import parse_line
 from mindlang.compiler.references import READABLE_NOUNS, mentions_in
-from mindlang.compiler.source import Source
-from mindlang.compiler.splice import spliced
+from mindlang.compiler.source import Source, spliced
 from mindlang.compiler.syntax import Fact
 from mindlang.editing.insertion import replace_span
 from mindlang.lock.training_world import TrainingWorld

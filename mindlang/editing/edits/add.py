@@ -6,8 +6,7 @@ from typing import Annotated
 
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
-from mindlang.compiler.source import Source, Span
-from mindlang.compiler.splice import Splice
+from mindlang.compiler.source import Source, Span, Splice
 from mindlang.compiler.syntax import Declaration, Fact, File, Number, verb_of
 from mindlang.editing import insertion
 from mindlang.editing.project import EditError, MindChange, Project

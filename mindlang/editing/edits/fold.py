@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from mindlang.compiler.families import lies_in
 from mindlang.compiler.parse import without_comment
-from mindlang.compiler.splice import Splice
+from mindlang.compiler.source import Splice
 from mindlang.editing.insertion import first_line, newline
 from mindlang.editing.project import EditError, MindChange, Project
 

@@ -1,6 +1,6 @@
 """`mindc edit inline`."""
 
-from mindlang.compiler.splice import Splice
+from mindlang.compiler.source import Splice
 from mindlang.compiler.syntax import (
     Chooses,
     Declaration,

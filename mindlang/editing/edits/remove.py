@@ -3,7 +3,7 @@
 from typing import Annotated
 
 from mindlang.compiler.diagnostic import did_you_mean
-from mindlang.compiler.splice import Splice
+from mindlang.compiler.source import Splice
 from mindlang.compiler.syntax import NOUNS, Declaration
 from mindlang.editing.insertion import first_line, owners, remove_lines, without_declarations, without_fact
 from mindlang.editing.project import EditError, MindChange, Project, refuse_mentioned, suggestion

@@ -4,7 +4,7 @@ import re
 
 from mindlang.compiler.families import lies_in, numbered
 from mindlang.compiler.parse import without_comment
-from mindlang.compiler.splice import Splice
+from mindlang.compiler.source import Splice
 from mindlang.compiler.syntax import PARTS
 from mindlang.editing.insertion import first_line, newline
 from mindlang.editing.project import EditError, MindChange, Project
