@@ -8,7 +8,7 @@ import pytest
 from mindlang.breakpoints.resolve import breakpoints_of
 from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Diagnostic
-from mindlang.compiler.parse.mistakes import common_mistakes
+from mindlang.compiler.parse.explain import common_mistakes
 from mindlang.compiler.resolve.curricula import SWITCHES
 from mindlang.compiler.source import Source
 from mindlang.explaining.article import Article

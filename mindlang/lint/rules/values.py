@@ -1,10 +1,37 @@
-"""Values and conditions that are the same whatever is read."""
+"""Values, conditions and events that are the same whatever is read, and values that can be no numbers."""
+
+from collections.abc import Iterator, Sequence
+from math import inf, nextafter
+
+from mindrun.numbers.intervals import Interval
+from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Edge, End, Part, Promise
+from mindlang.compiler.syntax import Comparison, Contains, Counts, Expression, Term, When, of_form
 from mindlang.editing.insertion import replace_span
-from mindlang.lint.intervals import interval, is_constant, range_in_words, why_always, why_never
-from mindlang.lint.study import Finding, Found, Study, is_zero_influence, removal, rule
+from mindlang.lint.intervals import (
+    OPPOSITES,
+    UPPER,
+    bounds,
+    divisors,
+    interval,
+    is_constant,
+    range_in_words,
+    why_always,
+    why_never,
+)
+from mindlang.lint.study import (
+    AnalysedWorld,
+    Conditional,
+    Finding,
+    Found,
+    Study,
+    is_zero_influence,
+    removal,
+    rule,
+    saying,
+)
 
 REMEDY = "Compare with something that is sometimes reached, or leave the condition out."
 AT_ONCE = "A run would end with its first tick: compare with something that is sometimes reached."
@@ -52,3 +79,104 @@ def edge_at_zero(study: Study) -> Found:
             message = f"{skill.name} never has influence on {edge.target}: this is always 0."
             hint = "Give it a value above 0, or take the line out."
             yield Finding(edge.at.span, message, hint, fix=removal(edge.fact) if len(skill.edges) > 1 else None)
+
+
+@rule()
+def dead_event(study: Study) -> Found:
+    for task in study.mind.tasks:
+        world = study.worlds[task.name]
+        counted = zip(of_form(task.facts, Counts), task.counts, strict=True)
+        for fact, event in (*((end.fact, end.event) for end in task.ends), *counted):
+            if fact.event and event and (why := event.hindrance(world)):
+                yield Finding(fact.event.span, f"This never happens: {why[0]}.", why[1], fix=removal(fact))
+        for end in task.ends:
+            if end.when and (never := why_never(end.when, world.range_in(end))):
+                hint = "Compare with something that is reached, or take the line out."
+                yield Finding(end.when.span, f"This never happens: {never}.", hint, fix=removal(end.fact))
+
+
+@rule()
+def dead_reward(study: Study) -> Found:
+    for task in study.mind.tasks:
+        for reward in task.rewards:
+            if why := study.worlds[task.name].why_never_paid(reward):
+                span, message, hint = why
+                fix = removal(reward.fact, "Remove the reward")
+                yield Finding(span, f"This reward is never paid: {message}.", hint, fix=fix)
+
+
+REACHED = "reached"  # the argument that is left out
+
+
+@rule(once_a_line=True)
+def unsaid_outcome(study: Study) -> Found:
+    for task in study.mind.tasks:
+        events = [*task.counts, *(reward.on for reward in task.rewards if reward.on)]
+        ending = {end.event for end in task.ends if end.times == 1 and not end.opens}
+        reached = {event.thing for event in events if event.outcome == REACHED and event not in ending}
+        for name, phrase in ((fact.name, fact.phrase) for fact in of_form(task.facts, Contains)):
+            if name.text in reached and all(argument.key.text != REACHED for argument in phrase.arguments):
+                hint = "Write reached stays, or reached moves to have it appear elsewhere as it once did."
+                fix = saying([phrase], "reached moves")
+                yield Finding(name.span, f"{name.text} stays where it is when it is reached.", hint, fix=fix)
+
+
+MESSAGE = "What is divided by here can be 0, and then this is not a number."
+Alternatives = tuple[tuple[Comparison, ...], ...]
+ALWAYS: Alternatives = ((),)  # nothing has to hold
+HINT = "Add a little to it, as in 1 / (ahead + 0.01), or say when: 1 / ahead per tick when ahead > 0.01."
+
+
+@rule()
+def zero_division(study: Study) -> Found:
+    for value, alternatives, of, world in _values(study):
+        if any(_divides_by_zero(value, all_, of, world) for all_ in alternatives):
+            yield Finding(value.span, MESSAGE, HINT)
+
+
+def _values(study: Study) -> Iterator[tuple[Expression, Alternatives, Conditional, AnalysedWorld]]:
+    """The expressions of sensors, edges, rewards and comparisons, each with the alternatives in which it counts."""
+    for sent in study.computed:
+        if sent.at:
+            yield sent.at, sent.gate.when.alternatives if sent.gate else ALWAYS, sent, study.any_world
+        if sent.gate and sent.gate.otherwise:
+            yield sent.gate.otherwise, _opposite(sent.gate.when), sent, study.any_world
+    for task in study.mind.tasks:
+        for reward in task.rewards:
+            alternatives = reward.when.alternatives if reward.when else ALWAYS
+            yield reward.amount, alternatives, reward, study.worlds[task.name]
+    for when, of, world in study.conditions:
+        for all_, comparison in ((each, one) for each in when.alternatives for one in each):
+            beside = tuple(other for other in all_ if other is not comparison)
+            yield comparison.left, (beside,), of, world
+            yield comparison.right, (beside,), of, world
+
+
+def _opposite(when: When) -> Alternatives:
+    """The negation of a condition of one comparison; of others, whose negation is not one `and`, nothing is known."""
+    match when.alternatives:
+        case ((only,),):
+            return ((replace(only, compare=OPPOSITES[only.compare]),),)
+    return ALWAYS
+
+
+def _divides_by_zero(value: Expression, all_: Sequence[Comparison], of: Conditional, world: AnalysedWorld) -> bool:
+    """True if a divisor in the expression can be 0 while these comparisons hold."""
+    ranges: dict[str, Interval] = {}  # while the comparisons hold; where they never do, one ends before it begins
+    for side, compare, number in bounds(all_):
+        match side.terms:
+            case (Term("reading", name),):
+                ranges[name] = _within(ranges.get(name, world.reading(name)), compare, number)
+
+    def reading(name: str) -> Interval:
+        return ranges.get(name, world.reading(name))
+
+    can_hold = all(low <= high for low, high in ranges.values())
+    return can_hold and any(low <= 0 <= high for low, high in divisors(value, reading, world.each(of)))
+
+
+def _within(of: Interval, compare: str, number: float) -> Interval:
+    """The part of a range that is so to a number."""
+    if compare in UPPER:
+        return of[0], min(of[1], nextafter(number, -inf) if compare == "<" else number)
+    return max(of[0], nextafter(number, inf) if compare == ">" else number), of[1]
