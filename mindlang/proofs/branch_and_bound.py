@@ -14,15 +14,7 @@ from mindrun.graph.weights import Weights
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.numbers.arrays import Bools, Singles
 
-from mindlang.proofs.interval import (
-    Boxes,
-    is_known,
-    join_boxes,
-    perceptron_matrices,
-    select_boxes,
-    sent_bounds,
-    whole_box,
-)
+from mindlang.proofs import interval
 from mindlang.proofs.trying import readings_to_try, sent_values
 
 SHARP_ENOUGH = 1e-3  # a bound this near to a value that was seen is sharp enough, but for 0 and 1
@@ -57,13 +49,13 @@ class Pool(NamedTuple):
 
 def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[EdgeRange, ...]:
     """The range of each edge of a skill when its readings may be anything in 0..1, from at most so many boxes."""
-    if not is_known(skill, weights) and skill.outputs == len(skill.edges):
+    if not interval.is_known(skill, weights) and skill.outputs == len(skill.edges):
         return tuple(EdgeRange(0.0, 1.0, sure=False) for _ in skill.edges)
     skill = by_itself(skill)
     low, high = _seen(skill, weights)
-    found = reduce(join_boxes, _cut(skill, weights, low, high, most))
+    found = reduce(interval.join_boxes, _cut(skill, weights, low, high, most))
     bounds = [found.low.min(axis=0), found.high.max(axis=0), found.sure.all(axis=0)]
-    known = is_known(skill, weights)
+    known = interval.is_known(skill, weights)
     seen = [
         (least, most_) if least <= most_ and (known or not _is_hidden(skill, edge)) else None
         for edge, least, most_ in zip(skill.edges, low.tolist(), high.tolist(), strict=True)
@@ -88,7 +80,7 @@ def by_itself(skill: Skill) -> Skill:
 def _seen(skill: Skill, weights: Weights | None) -> tuple[Singles, Singles]:
     """The least and the most that each edge sends for readings that are tried; 0 and 1 where it cannot be known."""
     tried = readings_to_try(len(skill.inputs), SAMPLED_READINGS)
-    known = is_known(skill, weights)
+    known = interval.is_known(skill, weights)
     found = sent_values(skill if known else replace(skill, function=Mlp(), inputs=()), weights, tried)
     sound = np.isfinite(found)
     found = np.clip(found, 0, 1)
@@ -105,23 +97,23 @@ def _is_hidden(skill: Skill, edge: Edge) -> bool:
 def _cut(skill: Skill, weights: Weights | None, low: Singles, high: Singles, most: int) -> list[Pool]:
     """Pools that cover the box together; the boxes that say least are cut first."""
     sides = len(skill.inputs)
-    open_, done, made = _pool(skill, weights, whole_box(sides)), [], 1
+    open_, done, made = _pool(skill, weights, interval.whole_box(sides)), [], 1
     sway = sway_of(skill, weights)
     while True:
         excess = _excess(open_, low, high)
-        done.append(select_boxes(open_, excess <= 0))
-        open_, excess = select_boxes(open_, excess > 0), excess[excess > 0]
+        done.append(interval.select_boxes(open_, excess <= 0))
+        open_, excess = interval.select_boxes(open_, excess > 0), excess[excess > 0]
         if not len(excess) or made >= most or sides == 0:
             return [*done, open_]
         order = np.argsort(-excess, kind="stable")
-        worst = select_boxes(open_, order[:BOXES_PER_ROUND])
-        cut = halves(Boxes(worst.least, worst.most), sway)
+        worst = interval.select_boxes(open_, order[:BOXES_PER_ROUND])
+        cut = halves(interval.Boxes(worst.least, worst.most), sway)
         made += len(cut.low)
-        open_ = join_boxes(select_boxes(open_, order[BOXES_PER_ROUND:]), _pool(skill, weights, cut))
+        open_ = interval.join_boxes(interval.select_boxes(open_, order[BOXES_PER_ROUND:]), _pool(skill, weights, cut))
 
 
-def _pool(skill: Skill, weights: Weights | None, boxes: Boxes) -> Pool:
-    sent = sent_bounds(skill, weights, boxes)
+def _pool(skill: Skill, weights: Weights | None, boxes: interval.Boxes) -> Pool:
+    sent = interval.sent_bounds(skill, weights, boxes)
     return Pool(boxes.low, boxes.high, sent.low, sent.high, sent.sure)
 
 
@@ -141,17 +133,19 @@ def sway_of(skill: Skill, weights: Weights | None) -> Singles:
         for word, reading in (term for program in edge.programs for term in program):
             if word == "reading":
                 sway[int(reading)] += 1
-    for matrix in perceptron_matrices(skill, weights)[:1]:
+    for matrix in interval.perceptron_matrices(skill, weights)[:1]:
         sway += np.minimum(np.abs(matrix), 1e6).sum(axis=0)
     return sway
 
 
-def can_close(boxes: Boxes, sway: Singles, most: int, is_open: Callable[[Boxes], Bools]) -> bool:
+def can_close(boxes: interval.Boxes, sway: Singles, most: int, is_open: Callable[[interval.Boxes], Bools]) -> bool:
     """True if no box `is_open` any more after each that is was cut, and so on; False where that makes too many."""
     made = len(boxes.low)
     while len(boxes.low):
-        now, boxes = (select_boxes(boxes, part) for part in (slice(BOXES_PER_ROUND), slice(BOXES_PER_ROUND, None)))
-        open_ = select_boxes(now, is_open(now))
+        now, boxes = (
+            interval.select_boxes(boxes, part) for part in (slice(BOXES_PER_ROUND), slice(BOXES_PER_ROUND, None))
+        )
+        open_ = interval.select_boxes(now, is_open(now))
         made += 2 * len(open_.low)
         if not len(open_.low):
             continue
@@ -160,15 +154,15 @@ def can_close(boxes: Boxes, sway: Singles, most: int, is_open: Callable[[Boxes],
         cut = halves(open_, sway)
         if (cut.low == cut.high).all(axis=1).any():
             return False  # between neighbours of float32 nothing is left to cut
-        boxes = join_boxes(cut, boxes)
+        boxes = interval.join_boxes(cut, boxes)
     return True
 
 
-def halves(boxes: Boxes, sway: Singles) -> Boxes:
+def halves(boxes: interval.Boxes, sway: Singles) -> interval.Boxes:
     """Every box cut in two across the side that matters most."""
     low, high = boxes.low, boxes.high
     rows, side = np.arange(len(low)), ((high - low) * sway).argmax(axis=1)
     middle = (low[rows, side] + high[rows, side]) / 2
     upper, lower = low.copy(), high.copy()
     upper[rows, side], lower[rows, side] = middle, middle
-    return join_boxes(Boxes(low, lower), Boxes(upper, high))
+    return interval.join_boxes(interval.Boxes(low, lower), interval.Boxes(upper, high))

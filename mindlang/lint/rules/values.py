@@ -10,17 +10,7 @@ from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Edge, End, Part, Promise
 from mindlang.compiler.syntax import Comparison, Contains, Counts, Expression, Term, When, of_form
 from mindlang.editing.insertion import replace_span
-from mindlang.lint.intervals import (
-    OPPOSITES,
-    UPPER,
-    bounds,
-    divisors,
-    interval,
-    is_constant,
-    range_in_words,
-    why_always,
-    why_never,
-)
+from mindlang.lint import intervals
 from mindlang.lint.study import (
     AnalysedWorld,
     Conditional,
@@ -40,9 +30,9 @@ AT_ONCE = "A run would end with its first tick: compare with something that is s
 @rule()
 def constant_condition(study: Study) -> Found:
     for when, of, world in study.conditions:
-        if isinstance(of, Edge | Part | Promise) and (never := why_never(when, world.range_in(of))):
+        if isinstance(of, Edge | Part | Promise) and (never := intervals.why_never(when, world.range_in(of))):
             yield Finding(when.span, f"This condition never holds: {never}.", REMEDY)
-        elif always := why_always(when, world.range_in(of)):
+        elif always := intervals.why_always(when, world.range_in(of)):
             hint = AT_ONCE if isinstance(of, End) else REMEDY
             yield Finding(when.span, f"This condition always holds: {always}.", hint)
 
@@ -62,11 +52,11 @@ def value_out_of_range(study: Study) -> Found:
         edge for skill, edge in study.edges if not (is_zero_influence(edge) or (skill.chooses and edge.to == "skill"))
     )
     for value in (value for edge in sent for value in edge.values):
-        low, high = interval(value)
-        if low > 1 or high < 0 or (not is_constant(value) and (low == 1 or high == 0)):
+        low, high = intervals.interval(value)
+        if low > 1 or high < 0 or (not intervals.is_constant(value) and (low == 1 or high == 0)):
             clamped = 1 if low >= 1 else 0
             share = f", or {low:g}% if that is meant" if low == high and 1 < low <= 100 else ""
-            message = f"This value is {range_in_words((low, high))}, which is clamped to {clamped}."
+            message = f"This value is {intervals.range_in_words((low, high))}, which is clamped to {clamped}."
             hint = f"Write {clamped}{share or ', or a value that gets between 0 and 1'}."
             fix = Fix(f"Write {clamped}", (replace_span(value.span, str(clamped)),))
             yield Finding(value.span, message, hint, fix=fix)
@@ -90,7 +80,7 @@ def dead_event(study: Study) -> Found:
             if fact.event and event and (why := event.hindrance(world)):
                 yield Finding(fact.event.span, f"This never happens: {why[0]}.", why[1], fix=removal(fact))
         for end in task.ends:
-            if end.when and (never := why_never(end.when, world.range_in(end))):
+            if end.when and (never := intervals.why_never(end.when, world.range_in(end))):
                 hint = "Compare with something that is reached, or take the line out."
                 yield Finding(end.when.span, f"This never happens: {never}.", hint, fix=removal(end.fact))
 
@@ -156,14 +146,14 @@ def _opposite(when: When) -> Alternatives:
     """The negation of a condition of one comparison; of others, whose negation is not one `and`, nothing is known."""
     match when.alternatives:
         case ((only,),):
-            return ((replace(only, compare=OPPOSITES[only.compare]),),)
+            return ((replace(only, compare=intervals.OPPOSITES[only.compare]),),)
     return ALWAYS
 
 
 def _divides_by_zero(value: Expression, all_: Sequence[Comparison], of: Conditional, world: AnalysedWorld) -> bool:
     """True if a divisor in the expression can be 0 while these comparisons hold."""
     ranges: dict[str, Interval] = {}  # while the comparisons hold; where they never do, one ends before it begins
-    for side, compare, number in bounds(all_):
+    for side, compare, number in intervals.bounds(all_):
         match side.terms:
             case (Term("reading", name),):
                 ranges[name] = _within(ranges.get(name, world.reading(name)), compare, number)
@@ -172,11 +162,11 @@ def _divides_by_zero(value: Expression, all_: Sequence[Comparison], of: Conditio
         return ranges.get(name, world.reading(name))
 
     can_hold = all(low <= high for low, high in ranges.values())
-    return can_hold and any(low <= 0 <= high for low, high in divisors(value, reading, world.each(of)))
+    return can_hold and any(low <= 0 <= high for low, high in intervals.divisors(value, reading, world.each(of)))
 
 
 def _within(of: Interval, compare: str, number: float) -> Interval:
     """The part of a range that is so to a number."""
-    if compare in UPPER:
+    if compare in intervals.UPPER:
         return of[0], min(of[1], nextafter(number, -inf) if compare == "<" else number)
     return max(of[0], nextafter(number, inf) if compare == ">" else number), of[1]
