@@ -32,9 +32,8 @@ from mindlang.lock.status import NotLearning, status
 from mindlang.proofs.proof import prove
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
-from mindlang.server.navigating import definitions, highlights, references
 from mindlang.server.proposals import all_mended, mendings
-from mindlang.server.questions import outline
+from mindlang.server.questions import definitions, highlights, outline, references
 from mindlang.server.server import EditorSession
 from mindlang.server.workspace import Workspace
 

@@ -276,7 +276,7 @@ ROOMS = {
                 )
             ),
             *(f"mindlang/{name}.py" for name in ("lint/intervals", "run/paired_difference", "robot/claims")),
-            *(f"mindlang/lint/rules/{name}.py" for name in ("zero_division", "direction_as_number", "robot")),
+            *(f"mindlang/lint/rules/{name}.py" for name in ("values", "direction_as_number", "robot")),
         ),
         (
             "tests/run/test_paired_difference.py",

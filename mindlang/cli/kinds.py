@@ -18,7 +18,7 @@ from mindlang.explaining.article import Article
 
 def _known() -> tuple[Article, ...]:
     """The articles of all kinds and drivers."""
-    from mindlang.explaining.drivers import driver_articles
+    from mindlang.explaining.collection import driver_articles
     from mindlang.explaining.kinds import kind_articles
 
     return (*kind_articles(), *driver_articles())

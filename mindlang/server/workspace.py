@@ -160,6 +160,15 @@ class Workspace:
         others = dict.fromkeys(chain(open_, chain.from_iterable(map(files_beside, folders))))
         yield from within_read_limits((other, self.text(other)) for other in others if [other] != [*paths])
 
+    def sharing(self, view: MindView) -> Iterator[MindView]:
+        """Other minds that have one of a mind's files among their own."""
+        own = set(view.paths)
+        for path, text in self.around(*view.paths):
+            if path != view.main and (path in own or 'use "' in text):
+                other = self.mind(path)
+                if not own.isdisjoint(other.paths):
+                    yield other
+
     def _is_now(self, known: MindView, stamps: dict[Path, Stamp]) -> bool:
         """True if a view is of the files as they are."""
         apart = stamps.keys() - {*known.paths}

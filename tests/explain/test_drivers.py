@@ -10,7 +10,7 @@ from docs.reference.pages import reference
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.source import Source
 from mindlang.explaining.article import Article, article_card, sections
-from mindlang.explaining.drivers import GPIO_PINS, HEADER_PINS, NAMED_PINS, NOUNS, driver_articles
+from mindlang.explaining.collection import GPIO_PINS, HEADER_PINS, NAMED_PINS, NOUNS, driver_articles
 from mindlang.explaining.terminal import LINE_COLUMNS, article_text
 from mindlang.robot.driver import wired
 from mindlang.robot.options import driver_options, drivers
