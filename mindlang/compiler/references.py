@@ -1,6 +1,6 @@
 """Every name in the files of a mind, with what it names: where a rename writes, and what a removal would break."""
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,6 +16,22 @@ from mindlang.compiler.syntax import Declaration, Fact, File, Header, Name, Phra
 READABLE_NOUNS = ("sensor", "memory")
 VALUE_NOUNS = (*READABLE_NOUNS, "number", "actuator", "draw")  # an actuator is its command, in a task
 DRIVABLE_NOUNS: tuple[Receiver, ...] = ("actuator", "memory")
+_SKILL: tuple[Receiver, ...] = ("skill",)
+# The nouns of what the names in a line may be, by its fields; those of its phrases and expressions their kinds say.
+NAMED_NOUNS: Mapping[type[Any], Mapping[str, tuple[str, ...]]] = {
+    syntax.Master: {"name": _SKILL},
+    Header: {"inside": ("scene",)},
+    syntax.Reads: {"name": READABLE_NOUNS, "stands_for": READABLE_NOUNS},
+    syntax.Drives: {"name": DRIVABLE_NOUNS, "stands_for": DRIVABLE_NOUNS},
+    syntax.Influences: {"name": _SKILL, "stands_for": _SKILL, "over": DRIVABLE_NOUNS},
+    syntax.Contains: {"name": ("thing",)},
+    syntax.Draws: {"name": ("draw",)},
+    syntax.Varies: {"of": (*VARIED_NOUNS, "thing")},
+    syntax.Fails: {"name": ("actuator", "sensor")},
+    syntax.Opens: {"name": ("thing",)},
+    syntax.Each: {"sensor": READABLE_NOUNS},
+    syntax.Teaches: {"skill": _SKILL, "task": ("task",), "master": _SKILL},
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,68 +98,36 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
 
     A memory is read like a sensor, a sensor hides a measure; a thing need not be declared.
     """
+    own = ""
+    yield from _in_fields(line)
     match line:
-        case syntax.Master(name):
-            yield name, ("skill",)
-        case Header(noun, _, phrase, like=like, inside=inside):
-            yield from (*_if_any(like, noun.text), *_if_any(inside, "scene"), *_in_phrase(noun.text, phrase))
-            yield from _in_expressions(*syntax.expressions_in(line))
-        case syntax.Reads(name, stands_for):
-            yield name, READABLE_NOUNS
-            yield from _if_any(stands_for, *READABLE_NOUNS)
-        case syntax.Sends():
-            yield from _in_output(line)
-        case syntax.Promise():
-            yield from _in_expressions(*syntax.expressions_in(line))
-        case syntax.Contains(name, phrase):
-            yield name, ("thing",)
+        case Header(noun, _, phrase, like=like):
+            yield from ((name, (noun.text,)) for name in (like,) if name)
+            yield from _in_phrase(noun.text, phrase)
+        case syntax.Contains(_, phrase):
             yield from _in_phrase("content", phrase)
-            yield from _in_expressions(*syntax.expressions_in(line))
-        case syntax.Draws(name):
-            yield name, ("draw",)
-        case syntax.Varies(of=of):
-            yield of, (*VARIED_NOUNS, "thing")
-        case syntax.Fails(name):
-            yield name, ("actuator", "sensor")
         case syntax.Outcome(event=event) | syntax.Counts(event):
-            yield from _if_any(line.name if isinstance(line, syntax.Opens) else None, "thing")
             yield from _in_phrase("event", event)
-            yield from _in_expressions(*syntax.expressions_in(line))
-        case syntax.Rewards(amount, on, each, when):
+        case syntax.Rewards(on=on, each=each):
             own = each.name.text if each else ""
-            yield from _in_expressions(amount, *syntax.expressions_in(when), own=own)
-            yield from _in_phrase("event", on)
-            yield from _if_any(each.sensor if each else None, *READABLE_NOUNS)
+            yield from (*_in_phrase("event", on), *_in_fields(each))
         case syntax.Teaches():
-            yield from _in_lesson(line)
+            yield from _in_arguments(line.arguments, kinds("curriculum").values())
+            for need in (*line.needs, *([line.until] if line.until else [])):
+                yield from _in_phrase("event", need.event)
+    yield from _in_expressions(*syntax.expressions_in(line), own=own)
 
 
-def _in_lesson(line: syntax.Teaches) -> Iterator[Named]:
-    """The names in a lesson: who is taught on what under whom, with what learner, and what it needs to happen."""
-    yield from ((line.skill, ("skill",)), (line.task, ("task",)), *_if_any(line.master, "skill"))
-    yield from _in_arguments(line.arguments, kinds("curriculum").values())
-    for need in (*line.needs, *([line.until] if line.until else [])):
-        yield from _in_phrase("event", need.event)
+def _in_fields(node: Any) -> Iterator[Named]:
+    """The names that are fields of a line or of a part of one."""
+    for field, nouns in NAMED_NOUNS.get(type(node), {}).items():
+        value = getattr(node, field) or ()
+        yield from ((name, nouns) for name in (value if isinstance(value, tuple) else (value,)))
 
 
-def _in_output(line: syntax.Sends) -> Iterator[Named]:
-    """The names in a line that drives or influences: where it goes, and what it goes over."""
-    nouns = DRIVABLE_NOUNS if isinstance(line, syntax.Drives) else ("skill",)
-    yield line.name, nouns
-    yield from _if_any(line.stands_for, *nouns)
-    over = line.over or () if isinstance(line, syntax.Influences) else ()
-    yield from ((each, DRIVABLE_NOUNS) for each in over)
-    yield from _in_expressions(*syntax.expressions_in(line))
-
-
-def _if_any(name: Name | None, *nouns: str) -> Iterator[Named]:
-    if name:
-        yield name, nouns
-
-
-def _in_expressions(*expressions: syntax.Expression | None, own: str = "") -> Iterator[Named]:
+def _in_expressions(*expressions: syntax.Expression, own: str) -> Iterator[Named]:
     """The readings and commands in expressions, and the things that their measures are about."""
-    for term in (term for expression in expressions if expression for term in expression.terms):
+    for term in (term for expression in expressions for term in expression.terms):
         if isinstance(term, Phrase) and term.arguments:
             yield from _in_phrase("measure", term)
         elif isinstance(term, Phrase) and term.kind.text != own:

@@ -17,7 +17,7 @@ from mindlang.compiler import model, syntax
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
 from mindlang.compiler.names import Names
-from mindlang.compiler.references import DRIVABLE_NOUNS, READABLE_NOUNS
+from mindlang.compiler.references import DRIVABLE_NOUNS, NAMED_NOUNS
 from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.parts import ONE_OF_TWO, promises, refuse_facts, said_once
@@ -110,15 +110,12 @@ def _repeated(fact: Reads | Drives | Influences) -> str:
 
 def _edges(declaration: Declaration, names: Names, visible: Visible, findings: Findings) -> tuple[model.Edge, ...]:
     edges: list[model.Edge] = []
-    to: Receiver | None
     over: tuple[str, ...]
     for fact in (fact for fact in declaration.facts if isinstance(fact, Drives | Influences)):
         cuts, over = None, ()
         _refuse_for(declaration, fact, findings)
-        if isinstance(fact, Drives):
-            to = names.find(fact.name, DRIVABLE_NOUNS, findings)
-        else:
-            to = names.find(fact.name, ("skill",), findings)
+        to: Any = names.find(fact.name, NAMED_NOUNS[type(fact)]["name"], findings)
+        if isinstance(fact, Influences):
             cuts = convert(fact.cuts, RATIO, findings) if fact.cuts else None
             over = _over(fact, names, findings)
         at = resolve_expressions(fact.at, visible, findings)
@@ -199,14 +196,6 @@ def _check_works(declaration: Declaration, function: Function, edges: Sequence[m
         findings.error("no-inputs", name.span, f"{name.text} reads nothing, so it has nothing to learn from.", hint)
 
 
-# The nouns of what stands for something.
-NOUNS: Mapping[type[Any], tuple[str, ...]] = {
-    Reads: READABLE_NOUNS,
-    Drives: DRIVABLE_NOUNS,
-    Influences: ("skill",),
-}
-
-
 def unsaid(declaration: Declaration) -> model.Skill:
     """A skill that is not well said, which has no function."""
     function: Any = None
@@ -231,7 +220,9 @@ def alike(
         message = f"{name} is like {other.name}, so it only says what it reads, drives or influences in place of that."
         hint = f"Take this line out, or say it of {other.name}: it holds for both."
         findings.error("like-says-more", more.span, message, hint)
-    read, driven, influenced = (_instead(own, form, other, widths, names, findings) for form in NOUNS)
+    read, driven, influenced = (
+        _instead(own, form, other, widths, names, findings) for form in (Reads, Drives, Influences)
+    )
     reads = tuple(read.get(each, (each,))[0] for each in other.reads)
     sent = driven | influenced
     edges = tuple(_edge(edge, sent.get(edge.target, (edge.target, edge.to)), read) for edge in other.edges)
@@ -267,7 +258,7 @@ def _instead(
     own: Declaration, form: type[Any], other: model.Skill, widths: Mapping[str, int], names: Names, findings: Findings
 ) -> dict[str, tuple[str, Any]]:
     """Name and noun of what stands for something that the other skill reads or sends to, by the name of that."""
-    found = ((fact, names.find(fact.name, NOUNS[form], findings)) for fact in of_form(own.facts, form))
+    found = ((fact, names.find(fact.name, NAMED_NOUNS[form]["name"], findings)) for fact in of_form(own.facts, form))
     nouns = {fact: noun for fact, noun in found if noun and not _says_more(fact)}
     instead = {fact: replaced for fact in nouns if (replaced := _replaced(fact, other, widths, names, findings))}
     said_once(instead, lambda fact: f"Something stands for {instead[fact]} already.", findings, ONE_OF_TWO)
@@ -279,7 +270,7 @@ def _replaced(
 ) -> str:
     """What a line replaces of the other skill, an input by one of its width; empty after reporting an error."""
     name, verb = fact.name.text, verb_of(fact)
-    sent = tuple(edge.target for edge in other.edges if edge.to in NOUNS[type(fact)])
+    sent = tuple(edge.target for edge in other.edges if edge.to in NAMED_NOUNS[type(fact)]["name"])
     known = other.reads if isinstance(fact, Reads) else sent
     has = f"{other.name} {verb} {listed(known, 'and') if known else 'nothing'}."
     if fact.stands_for is None:
