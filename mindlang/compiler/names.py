@@ -138,19 +138,20 @@ def declared_names(files: Iterable[File], findings: Findings) -> Names:
             declaration = replace(above, facts=facts, whole=False)
             noun, name = above.header.noun.text, above.header.name
         elif other:
-            _refuse_again(names, other, name, findings)
+            refuse_declared(names, other, name, findings)
             continue
         names.table.setdefault(noun, {})[name.text] = above = declaration
     for number in (setting for file in files for setting in of_form(file.settings, Number)):
         if other := names.noun_of(number.name.text, ("number", *SHARED["number"])):
-            _refuse_again(names, other, number.name, findings)
+            refuse_declared(names, other, number.name, findings)
         else:
             names.numbers[number.name.text] = number
     findings.numbers, findings.draws = names.numbers.keys() | names.unread, names.draws
     return names
 
 
-def _refuse_again(names: Names, noun: str, name: Name, findings: Findings) -> None:
+def refuse_declared(names: Names, noun: str, name: Name, findings: Findings) -> None:
+    """Report a name that a noun has already."""
     message, hint = f"There is already {a(noun)} called {name.text}.", "Give one of the two another name."
     places = names.place_of(noun, name.text), name.span
     findings.refuse_again("duplicate-name", places, message, hint, "first declared here")

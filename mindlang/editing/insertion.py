@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import takewhile
 
 from mindlang.compiler.source import Source, Span, Splice
-from mindlang.compiler.syntax import PARTS, VERBS, VERBS_OF, Declaration, Fact, File, Use, verb_of
+from mindlang.compiler.syntax import PARTS, VERBS, VERBS_OF, Declaration, Fact, File, Setting, Use, verb_of
 
 INDENT = "  "
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "scene", "task", "curriculum")  # in the order of a file
@@ -108,9 +108,9 @@ def commented(fact: Fact) -> list[str]:
     return [above.text.strip() for above in reversed(_leading(line))] + [line_of(fact)]
 
 
-def without_fact(fact: Fact) -> Splice:
-    """The line of a fact taken out, and its comment with it."""
-    line = first_line(fact.span)
+def without_line(what: Fact | Setting) -> Splice:
+    """The line of a fact or a setting taken out, and its comment with it."""
+    line = first_line(what.span)
     return remove_lines(line, line)
 
 

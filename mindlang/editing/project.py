@@ -156,11 +156,6 @@ class Project:
             hint = "Let another skill be the master first: " + self.main.source.edit("replace", name, "OTHER")
         refuse_mentioned(name, used, hint)
 
-    def file_of(self, declaration: syntax.Declaration) -> syntax.File:
-        """The file in which a declaration stands."""
-        source = declaration.header.span.source
-        return next(file for file in self.files if file.source is source)
-
     @property
     def paths(self) -> dict[Path, syntax.File]:
         """The files by their paths."""

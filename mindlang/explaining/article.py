@@ -6,6 +6,7 @@ The texts beside this file have what no program says of itself: chapters, and a 
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 
 from mindlang.compiler.diagnostic import a
@@ -124,6 +125,15 @@ def sections(name: str | Path) -> Iterator[Section]:
             words = _EXAMPLE.sub("", body)
             marks = dict(_MARK.findall(words))
             yield Section(chapter, heading[2], *titled(_MARK.sub("", words)), marks, examples)
+
+
+NO_SECTION = Section("", "", "", "", {}, ())  # of what has none
+
+
+@cache
+def named_sections(texts: str) -> Mapping[tuple[str, str], Section]:
+    """The sections of one of these texts by their chapters and names."""
+    return {(each.chapter, each.name): each for each in sections(texts)}
 
 
 def titled(text: str) -> tuple[str, str]:

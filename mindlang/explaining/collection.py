@@ -11,7 +11,15 @@ from inspect import cleandoc
 from pathlib import Path
 
 from mindlang.compiler.diagnostic import ERRORS, did_you_mean, listed
-from mindlang.explaining.article import Article, DeviceWiring, Section, Wire, sections, unwrap_paragraphs
+from mindlang.explaining.article import (
+    NO_SECTION,
+    Article,
+    DeviceWiring,
+    Wire,
+    named_sections,
+    sections,
+    unwrap_paragraphs,
+)
 from mindlang.explaining.kinds import kind_articles, word_articles
 from mindlang.explaining.parameters import parameter
 from mindlang.robot.options import driver_options, drivers
@@ -50,12 +58,7 @@ def unknown_hint(asked: str, among: Iterable[Article]) -> str:
 @cache
 def codes() -> dict[str, Article]:
     """All codes: errors in the order of their chapters, then the lint rules."""
-    return {each.name: each for each in (*error_articles(), *_of_codes("rules.md", RULE))}
-
-
-def error_articles() -> Iterator[Article]:
-    """The errors."""
-    return _of_codes(ERRORS, ERROR)
+    return {each.name: each for each in (*_of_codes(ERRORS, ERROR), *_of_codes("rules.md", RULE))}
 
 
 def _of_codes(texts: str | Path, sort: str) -> Iterator[Article]:
@@ -64,7 +67,7 @@ def _of_codes(texts: str | Path, sort: str) -> Iterator[Article]:
         yield Article(each.name, sort, sort, each.chapter, each.title, each.text, wrong=wrong, right=right)
 
 
-NOUNS = ("sensor", "actuator")
+DRIVER_NOUNS = ("sensor", "actuator")
 # The pins of a Raspberry Pi's header: what has a name, and the GPIOs from 0 on, as Broadcom counts them.
 NAMED_PINS = {"3.3 V": 1, "5 V": 2, "GND": 6, "SDA": 3, "SCL": 5, "MOSI": 19, "MISO": 21, "SCLK": 23, "CE0": 24}
 GPIO_PINS = (
@@ -77,24 +80,23 @@ HEADER_PINS = 40
 @cache
 def driver_articles() -> tuple[Article, ...]:
     """All drivers, those for sensors first; some names are there for both."""
-    more = {(each.chapter, each.name): each for each in sections("drivers.md")}
-    return tuple(_article(noun, name, more.get((noun, name))) for noun in NOUNS for name in sorted(drivers(noun)))
+    return tuple(_article(noun, name) for noun in DRIVER_NOUNS for name in sorted(drivers(noun)))
 
 
-def _article(noun: str, name: str, more: Section | None) -> Article:
-    cls = drivers(noun)[name]
-    right = more.labelled("yaml") if more else ()
+def _article(noun: str, name: str) -> Article:
+    cls, more = drivers(noun)[name], named_sections("drivers.md").get((noun, name), NO_SECTION)
+    right = more.labelled("yaml")
     return Article(
         name,
         "driver",
         f"driver of {noun}s",
         f"For {noun}s",
-        more.title if more else "",
+        more.title,
         unwrap_paragraphs(cleandoc(cls.__doc__ or "")),
         tuple(parameter(each) for each in driver_options(cls)),
         right=right,
         language="yaml",
-        wiring=next(map(parse_wiring, more.labelled("wiring"), right), None) if more else None,
+        wiring=next(map(parse_wiring, more.labelled("wiring"), right), None),
     )
 
 

@@ -3,7 +3,7 @@
 The words of the language are in `words.md`: what each is for.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from functools import cache
 from inspect import cleandoc
@@ -12,7 +12,7 @@ from typing import Any
 import mindrun.graph.graph  # noqa: F401  (it knows all kinds)
 from mindrun.kinds.registry import arguments, kinds, names
 
-from mindlang.explaining.article import Article, Section, sections, unwrap_paragraphs
+from mindlang.explaining.article import NO_SECTION, Article, Section, named_sections, sections, unwrap_paragraphs
 from mindlang.explaining.parameters import parameter
 
 # The nouns of kinds as people say them, in the order in which a mind is written: in the registry, and as a chapter.
@@ -42,34 +42,24 @@ def kind_articles() -> tuple[Article, ...]:
 def kind_article(of: str, name: str) -> Article:
     """The kind of a noun of the registry with that name."""
     cls, noun = kinds(of)[name], SAID_AS[of]
-    more = _more().get((noun, name))
+    more = named_sections("kinds.md").get((noun, name), NO_SECTION)
     return Article(
         name,
         noun,
         f"kind of {noun}",
         _SAID[noun][1],
-        more.title if more else "",
+        more.title,
         "\n\n".join(filter(None, _texts(cls))),
         tuple(parameter(each, _purpose(noun, name, each.key)) for each in arguments(cls)),
-        more.scale if more else {},
-        right=more.labelled("mind") if more else (),
+        more.scale,
+        right=more.labelled("mind"),
     )
-
-
-@cache
-def _more() -> Mapping[tuple[str, str], Section]:
-    return {(each.chapter, each.name): each for each in sections("kinds.md")}
 
 
 def _purpose(noun: str, name: str, key: str) -> str:
     """The purpose of an argument in `arguments.md`: of the kind, else of its noun, else of every kind."""
-    chapters = (f"{noun} {name}", noun, "every kind")
-    return next((_purposes()[chapter, key] for chapter in chapters if (chapter, key) in _purposes()), "")
-
-
-@cache
-def _purposes() -> Mapping[tuple[str, str], str]:
-    return {(each.chapter, each.name): each.title for each in sections("arguments.md")}
+    known, chapters = named_sections("arguments.md"), (f"{noun} {name}", noun, "every kind")
+    return next((known[chapter, key].title for chapter in chapters if (chapter, key) in known), "")
 
 
 def _texts(cls: type[Any]) -> Iterator[str]:

@@ -12,13 +12,13 @@ from mindlang.compiler.parse.explain import common_mistakes
 from mindlang.compiler.resolve.curricula import SWITCHES
 from mindlang.compiler.source import Source
 from mindlang.explaining.article import Article
-from mindlang.explaining.collection import ERROR, error_articles
+from mindlang.explaining.collection import ERROR
 from mindlang.explaining.collection import codes as all_codes
 from tests.breakpoints.subjects import subject
 from tests.explain.examples import ENVIRONMENTS, write
 from tests.project.sources import COMPILER, RUNTIME, modules, nodes
 
-ALL = list(error_articles())
+ALL = [each for each in all_codes().values() if each.noun == ERROR]
 EMITTERS = {
     "error",
     "refuse",

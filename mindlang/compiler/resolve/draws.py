@@ -14,8 +14,8 @@ from mindrun.numbers.quantity import COORDINATE, NUMBER, fits
 from msgspec.structs import replace
 
 from mindlang.compiler import syntax
-from mindlang.compiler.diagnostic import Findings, Label, a
-from mindlang.compiler.names import SHARED, Names
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.names import SHARED, Names, refuse_declared
 from mindlang.compiler.parse.build import as_expression
 from mindlang.compiler.resolve.expressions import Visible, resolve_expression
 from mindlang.compiler.resolve.parts import said_once
@@ -31,9 +31,7 @@ def resolve_draws(declaration: syntax.Declaration, names: Names, findings: Findi
     for fact in said_once(facts, lambda fact: f"The task already draws {fact.name.text}.", findings):
         name = fact.name
         if noun := names.noun_of(name.text, SHARED["draw"]):
-            first = Label(names.place_of(noun, name.text), "first declared here")
-            message, hint = f"There is already {a(noun)} called {name.text}.", "Give one of the two another name."
-            findings.error("duplicate-name", name.span, message, hint, first)
+            refuse_declared(names, noun, name, findings)
         elif draw := _draw(fact, findings):
             found.append(draw)
     return tuple(found)

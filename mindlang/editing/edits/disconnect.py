@@ -2,7 +2,7 @@
 
 from mindlang.compiler.diagnostic import Label, did_you_mean
 from mindlang.compiler.syntax import Drives, Influences, Reads
-from mindlang.editing.insertion import without_fact
+from mindlang.editing.insertion import without_line
 from mindlang.editing.project import EditError, MindChange, Project
 
 
@@ -22,4 +22,4 @@ def disconnect(project: Project, skill: str, target: str) -> MindChange:
         labels = [Label(fact.span, "or this") for fact in found[1:]]
         hint = f"Say which: {project.main.source.edit('remove', found[0].span.text, '--from', skill)}"
         raise EditError(f"{skill} reads {target} and drives it.", hint, found[0].span, *labels)
-    return MindChange((without_fact(found[0]),))
+    return MindChange((without_line(found[0]),))

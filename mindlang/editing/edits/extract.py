@@ -4,7 +4,7 @@ from typing import Annotated
 
 from mindlang.compiler.diagnostic import did_you_mean
 from mindlang.compiler.syntax import Influences, Reads, of_form
-from mindlang.editing.insertion import declare_below, indentation, line_of, replace_line, without_fact
+from mindlang.editing.insertion import declare_below, indentation, line_of, replace_line, without_line
 from mindlang.editing.project import EditError, MindChange, Project, influence, kind_of
 
 
@@ -40,6 +40,6 @@ def extract(
     ]
     return MindChange((
         replace_line(first, [f"{indent}{influence(kind_of(declaration), new)}"]),
-        *(without_fact(fact) for fact in others),
+        *(without_line(fact) for fact in others),
         declare_below(declaration, lines),
     ))  # fmt: skip

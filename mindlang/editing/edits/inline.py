@@ -53,7 +53,7 @@ def _taken_over(parent: Declaration, child: Declaration) -> list[Splice]:
     place = next(fact for fact in of_form(parent.facts, Influences) if fact.name.text == child.header.name.text)
     indent = insertion.indentation(parent)
     lines = [f"{indent}{insertion.line_of(fact)}" for fact in edges]
-    splices = [insertion.replace_line(place, lines) if lines else insertion.without_fact(place)]
+    splices = [insertion.replace_line(place, lines) if lines else insertion.without_line(place)]
     read = {fact.name.text for fact in of_form(parent.facts, Reads)}
     terms = (term for expression in expressions_in(*edges) for term in expression.terms)
     needed = dict.fromkeys(term.kind.text for term in terms if isinstance(term, Phrase))

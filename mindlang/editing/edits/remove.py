@@ -5,7 +5,7 @@ from typing import Annotated
 from mindlang.compiler.diagnostic import did_you_mean
 from mindlang.compiler.source import Splice
 from mindlang.compiler.syntax import NOUNS, Declaration
-from mindlang.editing.insertion import first_line, owners, remove_lines, without_declarations, without_fact
+from mindlang.editing.insertion import owners, without_declarations, without_line
 from mindlang.editing.project import EditError, MindChange, Project, refuse_mentioned, suggestion
 
 
@@ -32,7 +32,7 @@ def remove(
         if text not in said:
             hint = did_you_mean(text, said) or "Say the line as it stands there, without its comment."
             raise EditError(f"{declaration.header.name.text} does not say: {text}.", hint, declaration.header.span)
-        return MindChange((without_fact(said[text]),))
+        return MindChange((without_line(said[text]),))
     if name := _name_of_number(project, words, noun):
         return MindChange((_number(project, name),))
     declaration = _declaration(project, words, noun)
@@ -56,8 +56,7 @@ def _number(project: Project, name: str) -> Splice:
         raise EditError(f"There is no number called {name}.", suggestion(name, [*project.names.numbers]))
     used = [mention for mention in project.everywhere("number", name) if not mention.is_own]
     refuse_mentioned(name, used, "Write the number itself there first.")
-    line = first_line(project.names.numbers[name].span)
-    return remove_lines(line, line)
+    return without_line(project.names.numbers[name])
 
 
 def _declaration(project: Project, words: list[str], noun: str) -> Declaration:

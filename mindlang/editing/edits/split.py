@@ -24,7 +24,7 @@ def split(project: Project, to: str, names: tuple[str, ...]) -> MindChange:
     chosen = []
     for noun, _, own in (name.rpartition(":") for name in dict.fromkeys(names)):
         declaration = project.declared(own, noun, f"{{}}:{own}")
-        if project.file_of(declaration) is not project.main:
+        if declaration.header.span.source is not main:
             raise EditError(f"{own} stands in another file.", "", declaration.header.name.span)
         chosen.append(declaration)
     splices = (*without_declarations(chosen), use_line(project.main, Path(to).as_posix()))

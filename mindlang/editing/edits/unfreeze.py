@@ -1,7 +1,7 @@
 """`mindc edit unfreeze`."""
 
 from mindlang.compiler.syntax import Stays, of_form
-from mindlang.editing.insertion import without_fact
+from mindlang.editing.insertion import without_line
 from mindlang.editing.project import EditError, MindChange, Project
 
 
@@ -14,4 +14,4 @@ def unfreeze(project: Project, skill: str) -> MindChange:
     frozen = of_form(declaration.facts, Stays)
     if not frozen:
         raise EditError(f"{skill} is not frozen.", "", declaration.header.span)
-    return MindChange(tuple(without_fact(fact) for fact in frozen))
+    return MindChange(tuple(without_line(fact) for fact in frozen))

@@ -36,7 +36,7 @@ def unshare(project: Project, skill: str) -> MindChange:
         )
     first, *others = declaration.facts
     return MindChange(
-        (header, insertion.replace_line(first, lines), *map(insertion.without_fact, others)), unshared=unshared
+        (header, insertion.replace_line(first, lines), *map(insertion.without_line, others)), unshared=unshared
     )
 
 
