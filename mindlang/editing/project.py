@@ -13,10 +13,9 @@ from mindlang.compiler import syntax
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Diagnostic, Findings, Label, a, did_you_mean, listed
 from mindlang.compiler.model import Mind
-from mindlang.compiler.names import SHARED, Names
+from mindlang.compiler.names import READABLE_NOUNS, SHARED, VALUE_NOUNS, Mention, Names, mentions
 from mindlang.compiler.parse import parse
 from mindlang.compiler.parse.explain import proper
-from mindlang.compiler.references import READABLE_NOUNS, VALUE_NOUNS, Mention, mentions
 from mindlang.compiler.source import Source, Span, Splice
 from mindlang.editing.neighbours import neighbours
 from mindlang.lock import lock_sources

@@ -19,9 +19,8 @@ from mindrun.kinds.registry import arguments, names
 from mindrun.kinds.things.thing import OR
 from mindrun.numbers.quantity import EXPRESSION, SENSOR, SERVO, SKILL, THING, Quantity, Reference
 
-from mindlang.compiler.names import Names
+from mindlang.compiler.names import READABLE_NOUNS, Names, mentions_in
 from mindlang.compiler.parse.shape import parse_line
-from mindlang.compiler.references import READABLE_NOUNS, mentions_in
 from mindlang.compiler.source import Source, spliced
 from mindlang.compiler.syntax import Fact
 from mindlang.editing.insertion import replace_span

@@ -17,7 +17,7 @@ from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label
 from mindlang.compiler.hierarchy import reverse_topological_order, topological_order, with_descendants
 from mindlang.compiler.model import Edge, End, Mind, Part, Promise, Reward, Skill, Task, source_graph
-from mindlang.compiler.references import Mention, mentions
+from mindlang.compiler.names import Mention, mentions
 from mindlang.compiler.source import Source, Span, Splice
 from mindlang.compiler.syntax import Declaration, Fact, Phrase, Setting, When, expressions_in
 from mindlang.editing.insertion import without_declarations, without_line

@@ -23,8 +23,8 @@ from mindrun.sim.outside import making
 from mindlang.breakpoints.breakpoint import FAULT, OF, ROBOT_WORDS
 from mindlang.compiler import syntax
 from mindlang.compiler.families import letter_in
+from mindlang.compiler.names import names_in
 from mindlang.compiler.parse.shape import Start, grammar, parse_line
-from mindlang.compiler.references import names_in
 from mindlang.compiler.resolve.curricula import MEASURED, SWITCHES, USING
 from mindlang.compiler.resolve.kinds import about
 from mindlang.compiler.resolve.layouts import HARD

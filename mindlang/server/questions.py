@@ -11,8 +11,8 @@ from lsprotocol import types
 
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.format import format_splices
+from mindlang.compiler.names import Mention, introductions
 from mindlang.compiler.parse import parse
-from mindlang.compiler.references import Mention, introductions
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Argument, Contains, Declaration, File, Master, Name, Phrase, Teaches, Use, of_form
 from mindlang.files import files_below, readable_text, within_read_limits

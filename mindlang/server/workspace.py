@@ -13,8 +13,7 @@ from mindlang.breakpoints import SUFFIX
 from mindlang.compiler.compile import Compiled, load, read_files
 from mindlang.compiler.diagnostic import Diagnostic, Findings
 from mindlang.compiler.expand import expand
-from mindlang.compiler.names import Names, declared_names
-from mindlang.compiler.references import Mention, mentions
+from mindlang.compiler.names import Mention, Names, declared_names, mentions
 from mindlang.compiler.resolve.maps import map_paths
 from mindlang.compiler.source import Span, checked_text
 from mindlang.compiler.syntax import File

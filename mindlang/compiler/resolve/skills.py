@@ -16,8 +16,7 @@ from networkx import DiGraph
 from mindlang.compiler import model, syntax
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
-from mindlang.compiler.names import Names
-from mindlang.compiler.references import DRIVABLE_NOUNS, NAMED_NOUNS
+from mindlang.compiler.names import DRIVABLE_NOUNS, NAMED_NOUNS, Names
 from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.parts import ONE_OF_TWO, promises, refuse_facts, said_once

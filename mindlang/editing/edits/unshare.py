@@ -1,7 +1,7 @@
 """`mindc edit unshare`."""
 
 from mindlang.compiler.model import Skill
-from mindlang.compiler.references import mentions_in
+from mindlang.compiler.names import mentions_in
 from mindlang.compiler.syntax import Fact, Promise, Sends, of_form
 from mindlang.editing import insertion
 from mindlang.editing.project import EditError, MindChange, Project, Unshared
