@@ -22,10 +22,9 @@ from networkx import DiGraph
 
 from mindlang.compiler.hierarchy import with_ancestors
 from mindlang.proofs import reach
-from mindlang.proofs.branch_and_bound import EdgeRange, can_close
-from mindlang.proofs.interval import Boxes, expression_bounds, is_known, whole_box
+from mindlang.proofs.interval import Boxes, EdgeRange, can_close, expression_bounds, whole_box
 from mindlang.proofs.paths import Leak, Paths, influence_edges, leaks, paths
-from mindlang.proofs.trying import TRIED_READINGS, Tried, readings_to_try, think_rows, try_readings
+from mindlang.proofs.trying import TRIED_READINGS, Tried, is_known, readings_to_try, think_rows, try_readings
 
 Claim = Literal["always", "can be broken", "not excluded"]
 COMPARISONS = ("<", "<=", ">", ">=")
