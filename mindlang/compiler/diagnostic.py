@@ -69,7 +69,6 @@ class Findings:
     draws: Collection[str] = ()
 
     def error(self, code: str, span: Span, message: str, hint: str = "", *labels: Label) -> None:
-        """Collect an error."""
         self.diagnostics.append(Diagnostic(code, message, span, hint, labels))
 
     def refuse_again(

@@ -66,7 +66,6 @@ class Names:
         return self.numbers if noun == "number" else self.table.get(noun, {})
 
     def place_of(self, noun: str, name: str) -> Span:
-        """Where a name is declared."""
         declared = self._of(noun)[name]
         return declared.name.span if isinstance(declared, syntax.Number) else declared.header.name.span
 

@@ -71,7 +71,6 @@ class Span(ShortRepr):
 
 @lru_cache(CACHED_SOURCES)
 def _line_starts(source: Source) -> list[int]:
-    """Where the lines of a source begin."""
     return [0, *(found.end() for found in re.finditer("\n", source.text))]
 
 

@@ -60,7 +60,6 @@ class Edited:
 
     @property
     def changed_locks(self) -> list[Path]:
-        """The locks that it changes."""
         return [path for path, lock in self.followed.locks.items() if lock != self.locks[path]]
 
 

@@ -47,7 +47,6 @@ class SourceLine(Span):
 
 
 def first_line(span: Span) -> SourceLine:
-    """The line in which a span begins."""
     return _line_at(span.source, span.start)
 
 

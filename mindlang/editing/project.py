@@ -92,7 +92,6 @@ class Project:
 
     @property
     def names(self) -> Names:
-        """All declarations by noun and name."""
         return self.mind.names
 
     @property
@@ -157,12 +156,10 @@ class Project:
 
     @property
     def paths(self) -> dict[Path, syntax.File]:
-        """The files by their paths."""
         return {file.source.path: file for file in self.files}
 
     @property
     def texts(self) -> dict[Path, str]:
-        """The texts of the files by their paths."""
         return {path: file.source.text for path, file in self.paths.items()}
 
     @property

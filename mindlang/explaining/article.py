@@ -89,7 +89,6 @@ class Article:
 
     @property
     def paragraphs(self) -> list[str]:
-        """The paragraphs of its text."""
         return self.text.split("\n\n") if self.text else []
 
 
@@ -105,7 +104,6 @@ class Section:
     examples: tuple[tuple[str, str], ...]
 
     def labelled(self, label: str) -> tuple[str, ...]:
-        """The examples with a label."""
         return tuple(text for each, text in self.examples if each == label)
 
 

@@ -52,13 +52,11 @@ def whole_box(width: int) -> Boxes:
 
 
 def select_boxes(of: Bounds, boxes: slice | NDArray[np.intp] | Bools) -> Bounds:
-    """Some of the boxes."""
     some: list[Any] = [each[boxes] for each in of]
     return type(of)(*some)
 
 
 def join_boxes(first: Bounds, second: Bounds) -> Bounds:
-    """The boxes of both."""
     both: list[Any] = [np.concatenate(pair) for pair in zip(first, second, strict=True)]
     return type(first)(*both)
 

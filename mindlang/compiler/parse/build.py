@@ -35,7 +35,6 @@ def _fields(form: type[Struct]) -> list[tuple[str, Any]]:
 
 
 def build_line(tree: Tree[Token], source: Source, offset: int) -> syntax.Line | syntax.Stop:
-    """The line that stands at `offset` of `source`."""
     return cast(syntax.Line | syntax.Stop, Builder(source, offset).transform(tree))
 
 

@@ -82,7 +82,6 @@ def _as_written(declared: Iterable[D], noun: str, names: Names) -> Iterator[D]:
 
 
 def _settings(files: Iterable[File], form: type[S]) -> list[S]:
-    """The settings of one word in some files."""
     return [setting for file in files for setting in of_form(file.settings, form)]
 
 

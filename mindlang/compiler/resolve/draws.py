@@ -106,7 +106,6 @@ def may_leave(kind: ThingKind, by: Sequence[Program], draws: Sequence[Draw], sce
 
 
 def _places(value: Any) -> tuple[syntax.Numbers | syntax.Sums, ...]:
-    """The places of a value, as written."""
     return value.points if isinstance(value, syntax.Points) else (value,)
 
 

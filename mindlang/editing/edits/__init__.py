@@ -36,7 +36,6 @@ class Edit:
 
 
 def names() -> list[str]:
-    """The names of all edits."""
     return sorted(module.name for module in iter_modules(__path__))
 
 
