@@ -1,10 +1,35 @@
-"""`mindc edit unshare`."""
+"""Edits of whether a skill is taught, and with whose weights it acts."""
 
 from mindlang.compiler.model import Skill
 from mindlang.compiler.names import mentions_in
-from mindlang.compiler.syntax import Fact, Promise, Sends, of_form
+from mindlang.compiler.syntax import Fact, Promise, Sends, Stays, of_form
 from mindlang.editing import insertion
 from mindlang.editing.project import EditError, MindChange, Project, Unshared
+
+
+def freeze(project: Project, skill: str) -> MindChange:
+    """Let a skill stay as it is: it refuses training.
+
+    Lessons with subskills leave it out.
+
+    Example: mindc edit freeze collect.mind Avoid
+    """
+    declaration = project.own_skill(skill)
+    if frozen := of_form(declaration.facts, Stays):
+        raise EditError(f"{skill} is frozen already.", "", frozen[0].span)
+    return MindChange((insertion.below_siblings(declaration, "stays", ["stays frozen"]),))
+
+
+def unfreeze(project: Project, skill: str) -> MindChange:
+    """Let a frozen skill be taught again.
+
+    Example: mindc edit unfreeze collect.mind Avoid
+    """
+    declaration = project.own_skill(skill)
+    frozen = of_form(declaration.facts, Stays)
+    if not frozen:
+        raise EditError(f"{skill} is not frozen.", "", declaration.header.span)
+    return MindChange(tuple(insertion.without_line(fact) for fact in frozen))
 
 
 def unshare(project: Project, skill: str) -> MindChange:
