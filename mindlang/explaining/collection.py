@@ -20,8 +20,7 @@ from mindlang.explaining.article import (
     sections,
     unwrap_paragraphs,
 )
-from mindlang.explaining.kinds import kind_articles, word_articles
-from mindlang.explaining.parameters import parameter
+from mindlang.explaining.kinds import kind_articles, parameter, word_articles
 from mindlang.robot.options import driver_options, drivers
 
 ERROR, RULE = "error", "lint rule"  # sorts of codes

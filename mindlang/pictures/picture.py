@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from mindlang.number_format import score
 from mindlang.pictures import path, scene
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, flow_layout, paste, rectangle_corners, reduced
-from mindlang.pictures.robot import draw_robot
 from mindlang.pictures.theme import PAPER, Colour, mixed
 from mindlang.run.recorded_run import RecordedRun
 
@@ -43,7 +42,7 @@ def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
     path.draw_start(world, run)
     path.draw_end_mark(world, run, found, PAPER)
     scene.draw_items(world, run, PAPER, run.ticks)
-    draw_robot(world, run, PAPER, run.ticks)
+    scene.draw_robot(world, run, PAPER, run.ticks)
     path.draw_collisions(world, run)
     scene.draw_names(world, run, PAPER, run.ticks, path.end_label(world, run, found))
     height = height_of(run)
@@ -214,7 +213,7 @@ def _both(was: RecordedRun, now: RecordedRun, tick: int) -> Canvas:
         canvas.line(run.body[parted:, :2], colour, thick)
     path.draw_start(canvas, was)
     for run, colour in zip((was, now), PAPER.skills, strict=False):
-        draw_robot(canvas, run, PAPER, run.ticks)
+        scene.draw_robot(canvas, run, PAPER, run.ticks)
         x, y, _ = run.body[-1]
         canvas.disc(x, y, was.graph.body.radius + AROUND_PIXELS * canvas.pixel, colour, width=3.0)
         path.draw_collisions(canvas, run)

@@ -15,8 +15,7 @@ from mindlang.compiler.drawing import text_after_name
 from mindlang.compiler.resolve.curricula import USING
 from mindlang.compiler.source import Span, comment_of
 from mindlang.explaining.article import article_card, parameter_line
-from mindlang.explaining.kinds import kind_article, language_words
-from mindlang.explaining.parameters import parameter
+from mindlang.explaining.kinds import kind_article, language_words, parameter
 from mindlang.lock import lock_sources
 from mindlang.lock.report import made_by, rows
 from mindlang.lock.status import Trained

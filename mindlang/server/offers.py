@@ -13,8 +13,7 @@ from mindlang.compiler.names import declared_things
 from mindlang.compiler.source import comment_of
 from mindlang.compiler.syntax import Declaration, Draws, Reads, Sends, Varies, of_form
 from mindlang.explaining.article import article_card, parameter_line
-from mindlang.explaining.kinds import kind_article, language_words
-from mindlang.explaining.parameters import meaning, parameter
+from mindlang.explaining.kinds import kind_article, language_words, meaning, parameter
 from mindlang.files import files_beside, readable_text
 from mindlang.server.workspace import MindView
 
