@@ -24,6 +24,7 @@ from mindlang.compiler.hierarchy import with_ancestors
 from mindlang.proofs import reach
 from mindlang.proofs.interval import Boxes, EdgeRange, can_close, expression_bounds, whole_box
 from mindlang.proofs.paths import Leak, Paths, influence_edges, leaks, paths
+from mindlang.proofs.reach import Driven, ProvedReach
 from mindlang.proofs.trying import TRIED_READINGS, Tried, is_known, readings_to_try, think_rows, try_readings
 
 Claim = Literal["always", "can be broken", "not excluded"]
@@ -44,7 +45,7 @@ class Requirement:
     weights: tuple[str, ...]
 
 
-def prove_requirements(graph: Graph, weights: WeightsBySkill, found: reach.ProvedReach) -> Iterator[Requirement]:
+def prove_requirements(graph: Graph, weights: WeightsBySkill, found: ProvedReach) -> Iterator[Requirement]:
     """A claim for each line, of the skills below the master; `found` are the bounds of the hierarchy."""
     skills = reachable(graph, graph.master)
     known = all(is_known(skill, weights.get(skill.owner)) for skill in skills)
@@ -101,7 +102,7 @@ def _broken(graph: Graph, weights: WeightsBySkill, cells: Boxes, program: Progra
 def _may_break(
     graph: Graph,
     weights: WeightsBySkill,
-    found: reach.ProvedReach,
+    found: ProvedReach,
     cells: Boxes,
     program: Program,
     skill: int,
@@ -132,7 +133,7 @@ class ActuatorClaims:
     actuator: Actuator
     paths: Paths
     leak: Leak | None
-    driven: reach.Driven
+    driven: Driven
     tried: Tried
     weights: tuple[str, ...]
 
@@ -193,7 +194,7 @@ class Proof:
 class _Rests:
     """The skills on whose weights a claim rests: those on the paths whose weights narrow 0..1 to less."""
 
-    def __init__(self, graph: Graph, weights: WeightsBySkill, bounds: reach.ProvedReach) -> None:
+    def __init__(self, graph: Graph, weights: WeightsBySkill, bounds: ProvedReach) -> None:
         self._weights = weights
         self._place = graph.skill_numbers
         self._flow, self._live = DiGraph(), DiGraph()  # what is sent, and that of it which is not always 0
@@ -259,9 +260,7 @@ def prove(graph: Graph, weights: WeightsBySkill, delta: float) -> Proof:
     )
 
 
-def _bounded(
-    graph: Graph, weights: WeightsBySkill, delta: float
-) -> tuple[reach.ProvedReach, _Rests, list[ActuatorClaims]]:
+def _bounded(graph: Graph, weights: WeightsBySkill, delta: float) -> tuple[ProvedReach, _Rests, list[ActuatorClaims]]:
     """The bounds of a hierarchy, what they rest on, and the claims about each actuator."""
     count = len(graph.actuators)
     found, alone = influence_edges(graph), reach.prove_reach(graph, weights)
@@ -283,7 +282,7 @@ def _bounded(
     return bounds, rests, claims
 
 
-def _edges(graph: Graph, below: Sequence[Skill], bounds: reach.ProvedReach, rests: _Rests) -> Iterator[EdgeClaim]:
+def _edges(graph: Graph, below: Sequence[Skill], bounds: ProvedReach, rests: _Rests) -> Iterator[EdgeClaim]:
     for skill in below:
         for edge, sends in zip(skill.edges, bounds.edges[skill.name], strict=True):
             if edge.to == "skill":

@@ -20,7 +20,7 @@ from mindlang.compiler.format import spaced
 from mindlang.compiler.hierarchy import circles, reverse_topological_order
 from mindlang.compiler.model import Part, Promise, source_graph
 from mindlang.compiler.names import Names
-from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
+from mindlang.compiler.resolve.expressions import Visible, Widths, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.syntax import VERBS_OF, Declaration, Fact, Header, Maintains, Name, of_form, verb_of
 
@@ -73,9 +73,7 @@ def said_once(
     return [same[0] for same in by_message.values()]
 
 
-def promises(
-    declaration: Declaration, names: Names, widths: Mapping[str, int], findings: Findings
-) -> tuple[Promise, ...]:
+def promises(declaration: Declaration, names: Names, widths: Widths, findings: Findings) -> tuple[Promise, ...]:
     """The promises of a skill in the order of their lines; they need not be of what it reads itself."""
     made_of, where = "numbers, sensors and memories", "What a skill promises"
     visible = Visible(widths, unread=names.unread, made_of=made_of, where=where)

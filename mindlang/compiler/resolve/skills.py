@@ -17,7 +17,7 @@ from mindlang.compiler import model, syntax
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
 from mindlang.compiler.names import DRIVABLE_NOUNS, NAMED_NOUNS, Names
-from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
+from mindlang.compiler.resolve.expressions import Visible, Widths, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.parts import ONE_OF_TWO, promises, refuse_facts, said_once
 from mindlang.compiler.resolve.quantities import convert
@@ -40,7 +40,7 @@ from mindlang.compiler.syntax import (
 STATES: Mapping[type[Stays] | type[Chooses], tuple[str, str]] = {Stays: ("stay", "frozen"), Chooses: ("choose", "one")}
 
 
-def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple[model.Skill, ...]:
+def skills(names: Names, widths: Widths, findings: Findings) -> tuple[model.Skill, ...]:
     """Every skill, without the lines that are reported; one that is not well said has no function."""
     declared = dict(names.declarations("skill"))
     known = {
@@ -63,9 +63,7 @@ def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple
     return tuple(known.get(name) or unsaid(each) for name, each in declared.items())
 
 
-def _skill(
-    name: str, declaration: Declaration, names: Names, widths: Mapping[str, int], findings: Findings
-) -> model.Skill:
+def _skill(name: str, declaration: Declaration, names: Names, widths: Widths, findings: Findings) -> model.Skill:
     refuse_facts(declaration, findings)
     phrase = declaration.header.phrase
     function: Any = make_kind("skill", phrase, Scope(names, None), findings) if phrase else None
@@ -201,9 +199,7 @@ def unsaid(declaration: Declaration) -> model.Skill:
     return model.Skill(declaration.header.name.text, function, (), (), False, declaration)
 
 
-def alike(
-    own: Declaration, other: model.Skill | None, names: Names, widths: Mapping[str, int], findings: Findings
-) -> model.Skill:
+def alike(own: Declaration, other: model.Skill | None, names: Names, widths: Widths, findings: Findings) -> model.Skill:
     """A skill that is like another, None where there is no such one, with something else in the place of its names."""
     name, like = own.header.name.text, own.header.like
     if other is None and like:
@@ -254,7 +250,7 @@ def _edge(edge: model.Edge, sent: tuple[str, Receiver], read: Mapping[str, tuple
 
 
 def _instead(
-    own: Declaration, form: type[Any], other: model.Skill, widths: Mapping[str, int], names: Names, findings: Findings
+    own: Declaration, form: type[Any], other: model.Skill, widths: Widths, names: Names, findings: Findings
 ) -> dict[str, tuple[str, Any]]:
     """Name and noun of what stands for something that the other skill reads or sends to, by the name of that."""
     found = ((fact, names.find(fact.name, NAMED_NOUNS[form]["name"], findings)) for fact in of_form(own.facts, form))
@@ -264,9 +260,7 @@ def _instead(
     return {replaced: (fact.name.text, nouns[fact]) for fact, replaced in instead.items()}
 
 
-def _replaced(
-    fact: Reads | Sends, other: model.Skill, widths: Mapping[str, int], names: Names, findings: Findings
-) -> str:
+def _replaced(fact: Reads | Sends, other: model.Skill, widths: Widths, names: Names, findings: Findings) -> str:
     """What a line replaces of the other skill, an input by one of its width; empty after reporting an error."""
     name, verb = fact.name.text, verb_of(fact)
     sent = tuple(edge.target for edge in other.edges if edge.to in NAMED_NOUNS[type(fact)]["name"])
