@@ -38,9 +38,8 @@ from mindlang.proofs.proof import prove
 from mindlang.server.changing import perform
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
-from mindlang.server.navigating import definitions, highlights, matching_declarations, references
 from mindlang.server.proposals import Selection, all_mended, mendings, proposals
-from mindlang.server.questions import outline
+from mindlang.server.questions import definitions, highlights, matching_declarations, outline, references
 from mindlang.server.server import EditorSession
 
 LINEAR_RATIO = 2.8  # what shapes with names of more digits, or that change into one another, come to by themselves

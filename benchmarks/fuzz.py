@@ -25,17 +25,15 @@ from mindlang.cli._diagnostic_printer import as_data, plain
 from mindlang.compiler.comparison import mind_differences
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.format import format_splices, formatted
-from mindlang.compiler.source import Source
-from mindlang.compiler.splice import spliced
+from mindlang.compiler.source import Source, spliced
 from mindlang.lint.lint import lint
 from mindlang.lock.report import rows
 from mindlang.lock.status import NotLearning, status
 from mindlang.proofs.proof import prove
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
-from mindlang.server.navigating import definitions, highlights, references
 from mindlang.server.proposals import all_mended, mendings
-from mindlang.server.questions import outline
+from mindlang.server.questions import definitions, highlights, outline, references
 from mindlang.server.server import EditorSession
 from mindlang.server.workspace import Workspace
 

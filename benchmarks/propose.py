@@ -17,9 +17,9 @@ from mindrun.sim.rollout import Rollout
 
 from mindlang.compiler.compile import load
 from mindlang.compiler.hierarchy import with_ancestors
-from mindlang.compiler.splice import Splice, spliced
+from mindlang.compiler.source import Splice, spliced
 from mindlang.compiler.syntax import Master, Teaches, of_form
-from mindlang.editing.insertion import replace_span, without_declarations, without_fact
+from mindlang.editing.insertion import replace_span, without_declarations, without_line
 from mindlang.propose.candidates import BIAS, Candidate, function_of
 from mindlang.propose.search import FINAL_ATTEMPTS, Proposal, propose
 from mindlang.propose.static import known_of
@@ -71,7 +71,7 @@ def hidden(folder: Path, skill: str, decoys: bool, without: Sequence[str] = ()) 
         if taught and len(taught) == len(facts):
             splices += without_declarations([each])
         else:
-            splices += map(without_fact, taught)
+            splices += map(without_line, taught)
     kept = next(each.name for each in mind.skills if each.name not in gone)
     splices += [replace_span(each.name.span, kept) for each in of_form(main.settings, Master)]
     path.write_text(spliced(main.source, splices) + DECOYS * decoys)

@@ -11,7 +11,7 @@ from pathlib import Path
 from random import Random
 
 from benchmarks.grammar_lines import NUMBERS, line
-from mindlang.compiler.parse.mistakes import common_mistakes
+from mindlang.compiler.parse.explain import common_mistakes
 from mindlang.compiler.syntax import NOUNS, SETTINGS, VERBS
 from mindlang.explaining.collection import RULE, codes
 

@@ -3,7 +3,7 @@
 from pygments.lexer import RegexLexer, bygroups, words
 from pygments.token import Comment, Keyword, Name, Number, Operator, String, Text, Whitespace
 
-from mindlang.explaining.words import words_of
+from mindlang.explaining.kinds import words_of
 
 NOUN = "|".join(words_of("Nouns"))
 BEGINNINGS = rf"^([ \t]*)({'|'.join((*words_of('Settings'), *words_of('Verbs'), 'stop'))})\b"

@@ -15,7 +15,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "runtime")]
 
 import lark  # noqa: E402
 
-from mindlang.explaining.words import words_of  # noqa: E402
+from mindlang.explaining.kinds import words_of  # noqa: E402
 
 EXAMPLES = {
     "Braitenberg's wanderer, by rules": "braitenberg.mind",

@@ -232,8 +232,7 @@ ROOMS = {
     "beginnings": Room(
         (
             *(f"mindlang/compiler/{name}.py" for name in ("beginning", "resolve/worlds")),
-            *(f"mindlang/lint/rules/{name}.py" for name in ("crowded_world", "lessons", "paid_at_once")),
-            *(f"mindlang/lint/rules/{name}.py" for name in ("walled_off", "worlds")),
+            *(f"mindlang/lint/rules/{name}.py" for name in ("crowded_world", "lessons", "walled_off", "worlds")),
         ),
         (
             "tests/lint/test_floor.py",
@@ -276,7 +275,7 @@ ROOMS = {
                 )
             ),
             *(f"mindlang/{name}.py" for name in ("lint/intervals", "run/paired_difference", "robot/claims")),
-            *(f"mindlang/lint/rules/{name}.py" for name in ("zero_division", "direction_as_number", "robot")),
+            *(f"mindlang/lint/rules/{name}.py" for name in ("values", "robot")),
         ),
         (
             "tests/run/test_paired_difference.py",

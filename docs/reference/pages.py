@@ -8,12 +8,9 @@ from textwrap import fill
 from docs.reference.of_kinds import OF_KINDS
 from docs.reference.wiring import wiring_picture
 from mindlang.cli.explain import command_articles
-from mindlang.explaining.article import Article, Parameter
-from mindlang.explaining.collection import codes
-from mindlang.explaining.drivers import driver_articles
-from mindlang.explaining.kinds import kind_articles
-from mindlang.explaining.markdown import fenced
-from mindlang.explaining.words import word_articles
+from mindlang.explaining.article import Article, Parameter, fenced
+from mindlang.explaining.collection import codes, driver_articles
+from mindlang.explaining.kinds import kind_articles, word_articles
 
 LINE_CHARACTERS = 120
 CELL = str.maketrans({"|": "\\|"})

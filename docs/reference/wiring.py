@@ -5,7 +5,7 @@ from itertools import cycle
 
 from docs.reference import svg
 from mindlang.explaining.article import DeviceWiring, Wire
-from mindlang.explaining.drivers import HEADER_PINS
+from mindlang.explaining.collection import HEADER_PINS
 
 WIDTH_PIXELS, TOP_PIXELS, ROW_PIXELS = 640, 46, 14
 ODD_X, EVEN_X = 60, 74  # the two columns of the header

@@ -17,7 +17,7 @@ from mindlang.explaining.article import Article
 
 
 def _known() -> tuple[Article, ...]:
-    from mindlang.explaining.drivers import driver_articles
+    from mindlang.explaining.collection import driver_articles
     from mindlang.explaining.kinds import kind_articles
 
     return (*kind_articles(), *driver_articles())

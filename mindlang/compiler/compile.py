@@ -20,9 +20,8 @@ from mindlang.compiler.diagnostic import Diagnostic, Findings, near_file
 from mindlang.compiler.families import each_family_once
 from mindlang.compiler.lower import lower
 from mindlang.compiler.model import Mind
-from mindlang.compiler.names import declared_names
+from mindlang.compiler.names import declared_names, mentions
 from mindlang.compiler.parse import parse
-from mindlang.compiler.references import mentions
 from mindlang.compiler.resolve import resolve_mind
 from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, Span, checked_text, decode_source
 from mindlang.compiler.syntax import Amount, File, Name, Use, of_form, rebuilt

@@ -10,8 +10,7 @@ from typing import Literal
 from mindrun.errors import nearest
 from mindrun.numbers.short_repr import ShortRepr
 
-from mindlang.compiler.source import Span
-from mindlang.compiler.splice import Splice
+from mindlang.compiler.source import Span, Splice
 
 ERRORS = Path(__file__).with_name("errors.md")  # what each code means: a section a code
 MAX_DIAGNOSTICS = 100  # diagnostics that are read
@@ -70,7 +69,6 @@ class Findings:
     draws: Collection[str] = ()
 
     def error(self, code: str, span: Span, message: str, hint: str = "", *labels: Label) -> None:
-        """Collect an error."""
         self.diagnostics.append(Diagnostic(code, message, span, hint, labels))
 
     def refuse_again(

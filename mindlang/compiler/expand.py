@@ -18,8 +18,7 @@ from mindlang.compiler import syntax
 from mindlang.compiler.diagnostic import Findings, a
 from mindlang.compiler.families import said
 from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
-from mindlang.compiler.names import Names
-from mindlang.compiler.references import mentions_in
+from mindlang.compiler.names import Names, mentions_in
 from mindlang.compiler.syntax import Amount, Declaration, Fact, Name, Numbers, Phrase, rebuilt
 
 UNLIKE_NOUNS = ("body", "curriculum")  # whose declarations are like nothing

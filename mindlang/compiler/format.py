@@ -11,13 +11,11 @@ from itertools import accumulate, pairwise
 
 from mindlang.compiler.parse import BLANKS, without_comment
 from mindlang.compiler.parse.shape import MAX_SHAPES, Start, grammar, pieces, shape_of
-from mindlang.compiler.source import Source
-from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import NOUNS, SETTINGS
+from mindlang.compiler.source import Source, Splice
+from mindlang.compiler.syntax import NOUNS, SETTINGS, VERBS_OF
 
 INDENT = "  "
 Stretch = tuple[int, int]
-FACT_OWNERS = ("skill", "scene", "task", "curriculum")  # nouns that own facts
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +41,7 @@ class _Line:
     @property
     def opens(self) -> bool:
         """True if facts may stand below it."""
-        return self.first in FACT_OWNERS
+        return self.first in VERBS_OF
 
     def __str__(self) -> str:
         return "  ".join(filter(None, (self.code, self.comment)))

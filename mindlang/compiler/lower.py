@@ -12,7 +12,7 @@ from mindlang.compiler import model
 from mindlang.compiler.families import said
 from mindlang.compiler.format import spaced
 from mindlang.compiler.hierarchy import topological_order
-from mindlang.compiler.references import DRIVABLE_NOUNS
+from mindlang.compiler.names import DRIVABLE_NOUNS
 from mindlang.compiler.syntax import VERBS, Expression, Rewards, When, verb_of
 
 GOALS_MET = "all goals met"  # the end of a run with goals

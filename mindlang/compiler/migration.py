@@ -6,8 +6,7 @@ from mindrun.kinds.things.thing import MOVES, STAYS
 
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
-from mindlang.compiler.source import Source
-from mindlang.compiler.splice import Splice, spliced
+from mindlang.compiler.source import Source, Splice, spliced
 from mindlang.compiler.syntax import Contains, Counts, Declaration, Name, Outcome, Phrase, Rewards, of_form
 
 PLACED = ("item", "zone", "power")  # the kinds that had places of their own

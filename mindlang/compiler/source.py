@@ -1,7 +1,8 @@
-"""Text with places in it: a source, and spans that know their line and column."""
+"""Text with places in it: a source, spans that know their line and column, and splices, which edit it."""
 
 import re
 from bisect import bisect_right
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
@@ -70,7 +71,6 @@ class Span(ShortRepr):
 
 @lru_cache(CACHED_SOURCES)
 def _line_starts(source: Source) -> list[int]:
-    """Where the lines of a source begin."""
     return [0, *(found.end() for found in re.finditer("\n", source.text))]
 
 
@@ -124,3 +124,28 @@ def decode_source(data: bytes) -> str:
         line = data.count(b"\n", 0, error.start) + 1
         raise ValueError(f"is not UTF-8 text (line {line})") from error
     return checked_line_ends(text)
+
+
+@dataclass(frozen=True, slots=True)
+class Splice:
+    """Replaces the characters of a source from offset `start` up to `end` by `text`."""
+
+    source: Source
+    start: int
+    end: int
+    text: str
+
+
+def spliced(source: Source, splices: Iterable[Splice]) -> str:
+    """The text of a source with its own of the splices made; ValueError where two overlap.
+
+    Those that insert at one place stand in their order.
+    """
+    own = [splice for splice in splices if splice.source is source]
+    parts, end = [], 0
+    for splice in sorted(own, key=lambda splice: (splice.start, splice.end)):
+        if splice.start < end:
+            raise ValueError(f"two splices overlap at offset {splice.start} of {source.name}")
+        parts += [source.text[end : splice.start], splice.text]
+        end = splice.end
+    return "".join([*parts, source.text[end:]])

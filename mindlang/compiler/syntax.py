@@ -13,11 +13,15 @@ from mindlang.compiler.source import Source, Span, comment_of
 PARTS = ("sensor", "actuator", "memory")
 WHOLES = ("body", "skill", "curriculum", "scene")
 NOUNS = (*PARTS, *WHOLES, "task")
-VERBS = (
-    "reads", "drives", "influences", "chooses", "stays", "uses", "requires", "maintains", "achieves", "contains",
-    "starts", "draws", "varies", "fails", "lasts", "ends", "succeeds", "opens", "rewards", "counts", "teaches",
-    "wants", "avoids", "keeps", "then", "prefers",
-)  # fmt: skip
+WORLD_VERBS = ("contains", "starts", "draws", "varies", "fails")  # what the world is, not what is to be done in it
+GOAL_VERBS = ("wants", "avoids", "keeps", "then", "prefers")
+VERBS_OF = {
+    "skill": ("reads", "drives", "influences", "chooses", "stays", "uses", "requires", "maintains", "achieves"),
+    "task": (*WORLD_VERBS, "lasts", "ends", "succeeds", "opens", "rewards", "counts", *GOAL_VERBS),
+    "scene": WORLD_VERBS,
+    "curriculum": ("teaches",),
+}  # the verbs of the facts that may stand below a declaration, by its noun
+VERBS = tuple(dict.fromkeys(verb for verbs in VERBS_OF.values() for verb in verbs))
 SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
 
 L = TypeVar("L", bound=Struct)

@@ -15,8 +15,7 @@ from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import errors
-from mindlang.compiler.source import MAX_SOURCE_BYTES, Span, decode_source, encode_source
-from mindlang.compiler.splice import spliced
+from mindlang.compiler.source import MAX_SOURCE_BYTES, Span, decode_source, encode_source, spliced
 from mindlang.compiler.syntax import NOUNS, VERBS
 from mindlang.editing import transaction
 from mindlang.editing.insertion import first_line
@@ -61,7 +60,6 @@ class Edited:
 
     @property
     def changed_locks(self) -> list[Path]:
-        """The locks that it changes."""
         return [path for path, lock in self.followed.locks.items() if lock != self.locks[path]]
 
 

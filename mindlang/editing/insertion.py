@@ -3,29 +3,12 @@
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import takewhile
 
-from mindlang.compiler import syntax
-from mindlang.compiler.source import Source, Span
-from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import PARTS, Declaration, Fact, File, Use
+from mindlang.compiler.source import Source, Span, Splice
+from mindlang.compiler.syntax import PARTS, VERBS, VERBS_OF, Declaration, Fact, File, Setting, Use, verb_of
 
 INDENT = "  "
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "scene", "task", "curriculum")  # in the order of a file
-FACTS: tuple[type[Fact], ...] = (
-    *(syntax.Draws, syntax.Contains, syntax.Starts, syntax.Varies, syntax.Fails, syntax.Lasts, syntax.Ends),
-    *(syntax.Succeeds, syntax.Opens, syntax.Reads, syntax.Drives, syntax.Influences, syntax.Chooses, syntax.Stays),
-    *(syntax.Uses, syntax.Requires, syntax.Maintains, syntax.Achieves),
-    *(syntax.Rewards, syntax.Counts, syntax.Teaches),
-)  # in the order of a declaration
-
-OWNERS = {  # below which declarations the facts of each verb stand
-    "skill": ("reads", "drives", "influences", "chooses", "stays", "uses", "requires", "maintains", "achieves"),
-    "task": (
-        *("lasts", "ends", "succeeds", "opens", "rewards", "counts"),
-        *("contains", "starts", "draws", "varies", "fails"),
-    ),
-    "scene": ("contains", "starts", "draws", "varies", "fails"),
-    "curriculum": ("teaches",),
-}
+FACTS = tuple(dict.fromkeys(("draws", *VERBS)))  # in the order of a declaration: what is drawn before what it places
 
 
 class SourceLine(Span):
@@ -64,7 +47,6 @@ class SourceLine(Span):
 
 
 def first_line(span: Span) -> SourceLine:
-    """The line in which a span begins."""
     return _line_at(span.source, span.start)
 
 
@@ -99,7 +81,7 @@ Extent = tuple[SourceLine, SourceLine]  # the first and the last line
 def owners(fact: str) -> tuple[str, ...]:
     """The nouns below which a fact of this verb may stand; none where it begins with no verb."""
     verb = fact.partition(" ")[0]
-    return tuple(noun for noun, verbs in OWNERS.items() if verb in verbs)
+    return tuple(noun for noun, verbs in VERBS_OF.items() if verb in verbs)
 
 
 def replace_span(span: Span, text: str) -> Splice:
@@ -125,17 +107,17 @@ def commented(fact: Fact) -> list[str]:
     return [above.text.strip() for above in reversed(_leading(line))] + [line_of(fact)]
 
 
-def without_fact(fact: Fact) -> Splice:
-    """The line of a fact taken out, and its comment with it."""
-    line = first_line(fact.span)
+def without_line(what: Fact | Setting) -> Splice:
+    """The line of a fact or a setting taken out, and its comment with it."""
+    line = first_line(what.span)
     return remove_lines(line, line)
 
 
-def below_siblings(declaration: Declaration, form: type[Fact], texts: Iterable[str]) -> Splice:
+def below_siblings(declaration: Declaration, verb: str, texts: Iterable[str]) -> Splice:
     """Insert facts of one verb below the last one of that verb, or where the usual order puts them; indented."""
-    earlier = FACTS[: FACTS.index(form) + 1]
-    above = [fact for fact in declaration.facts if isinstance(fact, earlier)]
-    nearest = max(above, key=lambda fact: (FACTS.index(type(fact)), fact.span.start), default=None)
+    earlier = FACTS[: FACTS.index(verb) + 1]
+    above = [fact for fact in declaration.facts if verb_of(fact) in earlier]
+    nearest = max(above, key=lambda fact: (earlier.index(verb_of(fact)), fact.span.start), default=None)
     indent = first_line(nearest.span).indent if nearest else indentation(declaration)
     return insert_below(first_line((nearest or declaration.header).span), [f"{indent}{text}" for text in texts])
 

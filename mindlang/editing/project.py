@@ -9,35 +9,19 @@ from mindrun.graph.graph import Graph
 from mindrun.kinds.functions.function import Function
 from mindrun.kinds.registry import kinds
 
+from mindlang.compiler import syntax
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Diagnostic, Findings, Label, a, did_you_mean, listed
 from mindlang.compiler.model import Mind
-from mindlang.compiler.names import SHARED, Names
+from mindlang.compiler.names import READABLE_NOUNS, SHARED, VALUE_NOUNS, Mention, Names, mentions
 from mindlang.compiler.parse import parse
 from mindlang.compiler.parse.explain import proper
-from mindlang.compiler.references import READABLE_NOUNS, VALUE_NOUNS, Mention, mentions
-from mindlang.compiler.source import Source, Span
-from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import (
-    NOUNS,
-    PARTS,
-    Contains,
-    Declaration,
-    Draws,
-    Drives,
-    File,
-    Influences,
-    Master,
-    Name,
-    Number,
-    Reads,
-    of_form,
-)
+from mindlang.compiler.source import Source, Span, Splice
 from mindlang.editing.neighbours import neighbours
 from mindlang.lock import lock_sources
 
 MAX_SUGGESTED_NAMES = 8  # names in a message
-EXAMPLES = dict.fromkeys((*PARTS, "thing", "draw", "number"), "left_wheel")  # of the other nouns it is GoThere
+EXAMPLES = dict.fromkeys((*syntax.PARTS, "thing", "draw", "number"), "left_wheel")  # of the other nouns it is GoThere
 
 
 class EditError(MindError):
@@ -108,20 +92,19 @@ class Project:
 
     @property
     def names(self) -> Names:
-        """All declarations by noun and name."""
         return self.mind.names
 
     @property
-    def files(self) -> tuple[File, ...]:
+    def files(self) -> tuple[syntax.File, ...]:
         """The main file, then those that it uses."""
         return self.mind.files
 
     @property
-    def main(self) -> File:
+    def main(self) -> syntax.File:
         """The file that was named on the command line."""
         return self.mind.files[0]
 
-    def find(self, name: str, *nouns: str) -> Declaration:
+    def find(self, name: str, *nouns: str) -> syntax.Declaration:
         """The declaration of a name with one of the nouns; EditError where there is none."""
         if noun := self.names.noun_of(name, nouns):
             return self.names.table[noun][name]
@@ -138,13 +121,15 @@ class Project:
                 label = self.names.place_of(taken, name)
                 raise EditError(f"There is already {a(taken)} called {name}.", "Choose another name.", label)
 
-    def declared(self, name: str, noun: str, say: str = "--noun {}", among: Sequence[str] = NOUNS) -> Declaration:
+    def declared(
+        self, name: str, noun: str, say: str = "--noun {}", among: Sequence[str] = syntax.NOUNS
+    ) -> syntax.Declaration:
         """The declaration of a name, of a noun `among` these where none is said; EditError where that is none, or two.
 
         `say` is how a noun is said on the command line.
         """
         if noun:
-            refuse_no_noun(noun, NOUNS)
+            refuse_no_noun(noun, syntax.NOUNS)
             return self.find(name, noun)
         found = [self.names.table[of][name] for of in among if name in self.names.table.get(of, {})]
         if len(found) == 1:
@@ -155,14 +140,13 @@ class Project:
         hint = f"Say which: {say.format(found[0].header.noun.text)}"
         raise EditError(f"There are {len(found)} declarations called {name}.", hint, labels[0].span, *labels[1:])
 
-    def refuse_existing(self, skill: Declaration, form: type[Reads | Drives | Influences], name: str) -> None:
+    def refuse_existing(self, skill: syntax.Declaration, verb: str, name: str) -> None:
         """EditError where a skill reads, drives or influences something already."""
-        for fact in of_form(skill.facts, form):
-            if fact.name.text == name:
-                verb = form.__name__.lower()
+        for fact in skill.facts:
+            if isinstance(fact, syntax.Reads | syntax.Sends) and (syntax.verb_of(fact), fact.name.text) == (verb, name):
                 raise EditError(f"{skill.header.name.text} already {verb} {name}.", "", fact.span)
 
-    def refuse_used(self, noun: str, name: str, but: Sequence[Declaration]) -> None:
+    def refuse_used(self, noun: str, name: str, but: Sequence[syntax.Declaration]) -> None:
         """EditError where a name stands anywhere `but` in these declarations."""
         used = [mention for mention in self.mentions(noun, name) if mention.by not in but]
         hint = "Take these lines out first."
@@ -170,19 +154,12 @@ class Project:
             hint = "Let another skill be the master first: " + self.main.source.edit("replace", name, "OTHER")
         refuse_mentioned(name, used, hint)
 
-    def file_of(self, declaration: Declaration) -> File:
-        """The file in which a declaration stands."""
-        source = declaration.header.span.source
-        return next(file for file in self.files if file.source is source)
-
     @property
-    def paths(self) -> dict[Path, File]:
-        """The files by their paths."""
+    def paths(self) -> dict[Path, syntax.File]:
         return {file.source.path: file for file in self.files}
 
     @property
     def texts(self) -> dict[Path, str]:
-        """The texts of the files by their paths."""
         return {path: file.source.text for path, file in self.paths.items()}
 
     @property
@@ -211,12 +188,12 @@ class Project:
             yield from (m for m in other.mentions(noun, name) if m.name.span.source.path not in seen)
             seen |= set(other.paths)
 
-    def parents(self, skill: str) -> list[Declaration]:
+    def parents(self, skill: str) -> list[syntax.Declaration]:
         """The skills that say that they influence a skill, or another in its place."""
         declared = (each.declaration for each in self.mind.skills)
         return [each for each in declared if any(_influenced(each, skill))]
 
-    def own_skill(self, name: str) -> Declaration:
+    def own_skill(self, name: str) -> syntax.Declaration:
         """The declaration of a skill; EditError where it is like another, of which only what it reads is its own."""
         declaration = self.find(name, "skill")
         if (header := declaration.header).like:
@@ -237,13 +214,13 @@ class Project:
         """The mentions that place a skill in the hierarchy: as a subskill, and as the master."""
         for parent in self.parents(skill):
             yield from (Mention("skill", name, parent) for name in _influenced(parent, skill))
-        masters = (setting.name for setting in self.main.settings if isinstance(setting, Master))
+        masters = (setting.name for setting in self.main.settings if isinstance(setting, syntax.Master))
         yield from (Mention("skill", name, None) for name in masters if name.text == skill)
 
 
-def _influenced(parent: Declaration, skill: str) -> Iterator[Name]:
+def _influenced(parent: syntax.Declaration, skill: str) -> Iterator[syntax.Name]:
     """The places where a skill's lines `influences` name another."""
-    for fact in of_form(parent.facts, Influences):
+    for fact in syntax.of_form(parent.facts, syntax.Influences):
         yield from (name for name in (fact.name, fact.stands_for) if name and name.text == skill)
 
 
@@ -260,7 +237,7 @@ def project_alone(compiled: Compiled) -> Project:
     return Project(compiled.mind, compiled.graph)
 
 
-def kind_of(declaration: Declaration) -> str:
+def kind_of(declaration: syntax.Declaration) -> str:
     """The kind that a declaration says after `is` or `in`."""
     return declaration.header.phrase.kind.text if declaration.header.phrase else ""
 
@@ -317,9 +294,11 @@ def _is_name(noun: str, name: str) -> bool:
     findings = Findings()
     if noun == "number":
         read = parse(Source("name", f"number {name} is 1"), findings).settings
-        return not findings.diagnostics and [each.name.text for each in read if isinstance(each, Number)] == [name]
+        return not findings.diagnostics and [each.name.text for each in read if isinstance(each, syntax.Number)] == [
+            name
+        ]
     task, *others = parse(Source("name", f"task Task in plain\n{line}"), findings).declarations
     names = [other.header.name for other in others] or [
-        fact.name for fact in task.facts if isinstance(fact, Contains | Draws)
+        fact.name for fact in task.facts if isinstance(fact, syntax.Contains | syntax.Draws)
     ]
     return not findings.diagnostics and [known.text for known in names] == [name]

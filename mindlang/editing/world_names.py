@@ -13,31 +13,15 @@ from itertools import count
 from typing import Any, TypeVar, cast
 
 from lark import UnexpectedInput
+from mindrun.graph import graph
 from mindrun.graph.draws import Draw
-from mindrun.graph.graph import (
-    Actuator,
-    End,
-    Failure,
-    Graph,
-    Lesson,
-    Memory,
-    Promise,
-    Reward,
-    Sensor,
-    Skill,
-    Task,
-    Thing,
-    Variation,
-)
 from mindrun.kinds.registry import arguments, names
 from mindrun.kinds.things.thing import OR
 from mindrun.numbers.quantity import EXPRESSION, SENSOR, SERVO, SKILL, THING, Quantity, Reference
 
-from mindlang.compiler.names import Names
+from mindlang.compiler.names import READABLE_NOUNS, Names, mentions_in
 from mindlang.compiler.parse.shape import parse_line
-from mindlang.compiler.references import READABLE_NOUNS, mentions_in
-from mindlang.compiler.source import Source
-from mindlang.compiler.splice import spliced
+from mindlang.compiler.source import Source, spliced
 from mindlang.compiler.syntax import Fact
 from mindlang.editing.insertion import replace_span
 from mindlang.lock.training_world import TrainingWorld
@@ -49,17 +33,23 @@ Name = Callable[..., str]  # what a name is called that may be of these nouns
 NounNames = Mapping[str, Mapping[str, str]]  # what is called otherwise now, by noun
 
 NAMED: Mapping[type, Mapping[str, str]] = {
-    Graph: {"master": "skill"},
-    Sensor: {"name": "sensor"},
-    Memory: {"name": "memory"},
-    Actuator: {"name": "actuator"},
-    Skill: {"name": "skill", "like": "skill"},
-    Thing: {"name": "thing"},
-    Task: {"name": "task"},
-    Failure: {"actuator": "actuator"},
-    End: {"opens": "thing"},
+    graph.Graph: {"master": "skill"},
+    graph.Sensor: {"name": "sensor"},
+    graph.Memory: {"name": "memory"},
+    graph.Actuator: {"name": "actuator"},
+    graph.Skill: {"name": "skill", "like": "skill"},
+    graph.Thing: {"name": "thing"},
+    graph.Task: {"name": "task"},
+    graph.Failure: {"actuator": "actuator"},
+    graph.End: {"opens": "thing"},
     Draw: {"name": "draw"},
-    Lesson: {"curriculum": "curriculum", "skill": "skill", "task": "task", "master": "skill", "starts_from": "skill"},
+    graph.Lesson: {
+        "curriculum": "curriculum",
+        "skill": "skill",
+        "task": "task",
+        "master": "skill",
+        "starts_from": "skill",
+    },
 }  # the nouns of the fields that are names
 
 OF_KINDS = "sensor", "memory", "actuator", "thing"  # the nouns of facts that are kinds
@@ -85,7 +75,7 @@ class Renaming:
     """New names by noun, and the minds in whose worlds the texts with these names are looked up."""
 
     names: NounNames
-    minds: Sequence[Graph]
+    minds: Sequence[graph.Graph]
 
     def name(self, text: str, *nouns: str) -> str:
         """The present name of something with one of these nouns."""
@@ -217,9 +207,9 @@ def renamed(node: T, name: Name) -> T:
 
 def _value(node: Any, field: Field[Any], name: Name) -> Any:
     value = getattr(node, field.name)
-    if isinstance(node, Reward | End | Promise) and field.name == "text":
+    if isinstance(node, graph.Reward | graph.End | graph.Promise) and field.name == "text":
         return ""
-    if isinstance(node, Variation) and field.name == "of":
+    if isinstance(node, graph.Variation) and field.name == "of":
         return name(value, node.noun)
     if noun := NAMED.get(type(node), {}).get(field.name):
         return name(value, noun)

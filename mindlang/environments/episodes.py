@@ -26,8 +26,7 @@ from mindlang.compiler.diagnostic import listed
 from mindlang.lock.status import ReadyMind, make_ready
 from mindlang.pictures.canvas import Image
 from mindlang.pictures.film_images import half_window, window
-from mindlang.pictures.robot import draw_robot
-from mindlang.pictures.scene import draw_items, draw_names, draw_zones, empty_world
+from mindlang.pictures.scene import draw_items, draw_names, draw_robot, draw_zones, empty_world
 from mindlang.pictures.theme import NIGHT
 from mindlang.run.chosen_task import master_of, task_of, unknown
 from mindlang.run.recorded_run import RecordedRun

@@ -1,4 +1,4 @@
-"""The explanation of a kind, a driver, a code, a word of the language or a command, as one value.
+"""The explanation of a kind, a driver, a code, a word of the language or a command, as one value; and as Markdown.
 
 The texts beside this file have what no program says of itself: chapters, and a section a name.
 """
@@ -6,7 +6,10 @@ The texts beside this file have what no program says of itself: chapters, and a 
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
+
+from mindlang.compiler.diagnostic import a
 
 SCALE_MARKS = ("0", "0.5", "1")
 _HEADING = re.compile(r"^(#{1,2}) (.+)\n", re.M)
@@ -86,7 +89,6 @@ class Article:
 
     @property
     def paragraphs(self) -> list[str]:
-        """The paragraphs of its text."""
         return self.text.split("\n\n") if self.text else []
 
 
@@ -102,7 +104,6 @@ class Section:
     examples: tuple[tuple[str, str], ...]
 
     def labelled(self, label: str) -> tuple[str, ...]:
-        """The examples with a label."""
         return tuple(text for each, text in self.examples if each == label)
 
 
@@ -124,6 +125,15 @@ def sections(name: str | Path) -> Iterator[Section]:
             yield Section(chapter, heading[2], *titled(_MARK.sub("", words)), marks, examples)
 
 
+NO_SECTION = Section("", "", "", "", {}, ())  # of what has none
+
+
+@cache
+def named_sections(texts: str) -> Mapping[tuple[str, str], Section]:
+    """The sections of one of these texts by their chapters and names."""
+    return {(each.chapter, each.name): each for each in sections(texts)}
+
+
 def titled(text: str) -> tuple[str, str]:
     """The first line of a text, and its paragraphs, each of them one line."""
     title, *paragraphs = re.split(r"\n\s*\n", text.strip())
@@ -133,3 +143,22 @@ def titled(text: str) -> tuple[str, str]:
 def unwrap_paragraphs(text: str) -> str:
     """The paragraphs of a text, each of them one line."""
     return "\n\n".join(" ".join(paragraph.split()) for paragraph in re.split(r"\n\s*\n", text.strip()))
+
+
+def article_card(article: Article) -> str:
+    """The Markdown that an editor shows of an article."""
+    parts = [f"**{article.name}**, {a(article.sort)}", article.summary, *article.paragraphs]
+    parts += ["\n".join(f"- **{mark}** {meaning}" for mark, meaning in article.scale.items())]
+    parts += ["\n".join(f"- {parameter_line(each)}" for each in article.parameters)]
+    parts += [fenced(text, article.language) for text in article.right]
+    return "\n\n".join(filter(None, parts))
+
+
+def parameter_line(parameter: Parameter) -> str:
+    """An argument in a line: what it takes, and its default."""
+    return f"`{parameter.key}` {parameter.words}{parameter.otherwise}"
+
+
+def fenced(text: str, language: str) -> str:
+    """A text as a block of code."""
+    return f"```{language}\n{text.rstrip()}\n```"

@@ -15,7 +15,6 @@ Segment = tuple[str, str]  # text and style
 
 
 def article_text(article: Article) -> Iterator[Segment]:
-    """One article, whole."""
     yield article.name, "bold"
     yield f" ({article.sort})\n", "dim"
     yield f"{fill(article.summary, LINE_COLUMNS, break_on_hyphens=False)}\n", ""
@@ -76,7 +75,6 @@ def _by_chapter(articles: Iterable[Article], heading: Callable[[Article], str]) 
 
 
 def article_data(article: Article) -> dict[str, Any]:
-    """An article as plain data."""
     arguments = [
         {"key": each.key, "for": each.purpose, "takes": each.meaning, "default": each.default or None}
         for each in article.parameters

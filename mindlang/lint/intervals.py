@@ -69,7 +69,6 @@ def is_constant(of: Expression) -> bool:
 
 
 def range_in_words(of: Interval) -> str:
-    """A range in words."""
     low, high = (bound + 0.0 for bound in of)  # -0.0 is 0
     if low == high:
         return f"always {low:g}"

@@ -13,9 +13,8 @@ from mindrun.files.regular_files import read_regular
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.families import each_family_once
-from mindlang.compiler.references import mentions
-from mindlang.compiler.source import Source, encode_source
-from mindlang.compiler.splice import Splice, spliced
+from mindlang.compiler.names import mentions
+from mindlang.compiler.source import Source, Splice, encode_source, spliced
 from mindlang.editing import transaction
 from mindlang.editing.neighbours import neighbours
 from mindlang.lint.rules import all_rules

@@ -17,11 +17,10 @@ from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label
 from mindlang.compiler.hierarchy import reverse_topological_order, topological_order, with_descendants
 from mindlang.compiler.model import Edge, End, Mind, Part, Promise, Reward, Skill, Task, source_graph
-from mindlang.compiler.references import Mention, mentions
-from mindlang.compiler.source import Source, Span
-from mindlang.compiler.splice import Splice
+from mindlang.compiler.names import Mention, mentions
+from mindlang.compiler.source import Source, Span, Splice
 from mindlang.compiler.syntax import Declaration, Fact, Phrase, Setting, When, expressions_in
-from mindlang.editing.insertion import first_line, remove_lines, without_declarations
+from mindlang.editing.insertion import without_declarations, without_line
 from mindlang.lint.intervals import Range, interval, why_never
 from mindlang.lock import Lock, lock_sources, read_locks
 
@@ -299,8 +298,7 @@ def removal(what: Declaration | Fact | Setting, title: str = "", is_safe: bool =
     """The fix that takes out a declaration, or the line of a fact or a setting."""
     if isinstance(what, Declaration):
         return Fix(title or f"Remove {what.header.name.text}", without_declarations([what]), is_safe)
-    line = first_line(what.span)
-    return Fix(title or "Remove the line", (remove_lines(line, line),), is_safe)
+    return Fix(title or "Remove the line", (without_line(what),), is_safe)
 
 
 def saying(phrases: Iterable[Phrase], text: str) -> Fix:

@@ -11,8 +11,16 @@ from mindlang.pictures import path
 from mindlang.pictures.canvas import Canvas, Image, Region, Viewport, blank, flow_layout, letterbox, paste, text_width
 from mindlang.pictures.environments import seen_run
 from mindlang.pictures.panels import COLUMN_PIXELS, ROW_PIXELS, HierarchyPanel, ReadingsPanel, sensors_read
-from mindlang.pictures.robot import draw_robot
-from mindlang.pictures.scene import WALL_UNITS, draw_items, draw_names, draw_zones, each_thing, empty_world, half_sides
+from mindlang.pictures.scene import (
+    WALL_UNITS,
+    draw_items,
+    draw_names,
+    draw_robot,
+    draw_zones,
+    each_thing,
+    empty_world,
+    half_sides,
+)
 from mindlang.pictures.theme import NIGHT
 from mindlang.run.recorded_run import RecordedRun
 

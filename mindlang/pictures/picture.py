@@ -11,22 +11,8 @@ from mindrun.terminal.tick_count import ticks as in_words
 from numpy.typing import NDArray
 
 from mindlang.number_format import score
-from mindlang.pictures import scene
+from mindlang.pictures import path, scene
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, flow_layout, paste, rectangle_corners, reduced
-from mindlang.pictures.path import (
-    MIN_CONTROL_SHARE,
-    Path,
-    Stroke,
-    draw_collisions,
-    draw_cross,
-    draw_end_mark,
-    draw_former,
-    draw_rings,
-    draw_start,
-    end_label,
-    ending_words,
-)
-from mindlang.pictures.robot import draw_robot
 from mindlang.pictures.theme import PAPER, Colour, mixed
 from mindlang.run.recorded_run import RecordedRun
 
@@ -49,20 +35,20 @@ Entry = tuple[Callable[[float, float], None], str]  # what draws the mark at a p
 
 
 def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
-    world, path = world_of(run), Path.of(run, PAPER)
-    draw_former(world, run)
+    world, drawn = world_of(run), path.Path.of(run, PAPER)
+    path.draw_former(world, run)
     scene.draw_zones(world, run, PAPER, run.ticks)
-    path.draw(world, 0, run.ticks, 2.0)
-    draw_start(world, run)
-    draw_end_mark(world, run, found, PAPER)
+    drawn.draw(world, 0, run.ticks, 2.0)
+    path.draw_start(world, run)
+    path.draw_end_mark(world, run, found, PAPER)
     scene.draw_items(world, run, PAPER, run.ticks)
-    draw_robot(world, run, PAPER, run.ticks)
-    draw_collisions(world, run)
-    scene.draw_names(world, run, PAPER, run.ticks, end_label(world, run, found))
+    scene.draw_robot(world, run, PAPER, run.ticks)
+    path.draw_collisions(world, run)
+    scene.draw_names(world, run, PAPER, run.ticks, path.end_label(world, run, found))
     height = height_of(run)
     page = page_around(world, height)
     draw_title(page, run, found)
-    draw_legend(page, run, found, path, height - 46)
+    draw_legend(page, run, found, drawn, height - 46)
     return reduced(page.image, 1 / SCALE_FACTOR)
 
 
@@ -142,9 +128,9 @@ def draw_title(canvas: Canvas, run: RecordedRun, found: dict[str, Any]) -> None:
         x += fit * width
 
 
-def draw_legend(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path, y: float) -> None:
+def draw_legend(canvas: Canvas, run: RecordedRun, found: dict[str, Any], drawn: path.Path, y: float) -> None:
     """Draw the legend of colours and marks, in lines that end before the scale, smaller where they are many."""
-    entries = _entries(canvas, run, found, path)
+    entries = _entries(canvas, run, found, drawn)
     room = PICTURE_PIXELS - 2 * SIDE_PIXELS - SCALE_BAR_PIXELS
     size, places = legend_layout(canvas, [name for _, name in entries], room)
     for (draw, name), (along, line) in zip(entries, places, strict=True):
@@ -164,7 +150,7 @@ def legend_layout(canvas: Canvas, names: Sequence[str], room: float) -> tuple[fl
         size -= 0.5
 
 
-def _entries(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path) -> list[Entry]:
+def _entries(canvas: Canvas, run: RecordedRun, found: dict[str, Any], drawn: path.Path) -> list[Entry]:
     def ramp(x: float, y: float) -> None:
         for i in range(18):
             canvas.line([(x + i, y), (x + i + 1, y)], mixed(PAPER.early, PAPER.late, i / 17), 3.0)
@@ -175,16 +161,16 @@ def _entries(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path
     def dot(colour: Colour, x: float, y: float) -> None:
         canvas.disc(x + 9, y, 6, colour)
 
-    def bar(stroke: Stroke, x: float, y: float) -> None:
+    def bar(stroke: path.Stroke, x: float, y: float) -> None:
         stroke.draw(canvas, [(x, y), (x + 18, y)], 3.0)
 
     entries: list[Entry] = [
         (partial(bar, stroke), f"{name} {share:.0%}")
-        for stroke, (name, share) in zip(path.strokes, path.shares.items(), strict=False)
-        if share >= MIN_CONTROL_SHARE
+        for stroke, (name, share) in zip(drawn.strokes, drawn.shares.items(), strict=False)
+        if share >= path.MIN_CONTROL_SHARE
     ] or [(ramp, f"path, 0 to {run.ticks * run.graph.tick:.0f} s")]
     entries.append((lambda x, y: canvas.disc(x + 9, y, 4.5, PAPER.ink, width=1.6), "start"))
-    entries.append((lambda x, y: draw_rings(canvas, x + 9, y, 3.0, found, PAPER), "end"))
+    entries.append((lambda x, y: path.draw_rings(canvas, x + 9, y, 3.0, found, PAPER), "end"))
     things = {thing.name: thing for thing in run.contents}
     colours = dict(zip((thing.name for thing in run.contents), scene.thing_colours(run.contents, PAPER), strict=True))
     for name, thing in things.items():
@@ -194,7 +180,7 @@ def _entries(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path
     if solid:
         entries.append((partial(box, PAPER.rock_edge), ", ".join(solid)))
     if hits := len(run.collisions):
-        entries.append((lambda x, y: draw_cross(canvas, x + 9, y, 5, PAPER), f"collision ({hits})"))
+        entries.append((lambda x, y: path.draw_cross(canvas, x + 9, y, 5, PAPER), f"collision ({hits})"))
     return entries
 
 
@@ -225,12 +211,12 @@ def _both(was: RecordedRun, now: RecordedRun, tick: int) -> Canvas:
     canvas.line(was.body[: parted + 1, :2], PAPER.faint, PATH_PIXELS[1])
     for run, colour, thick in zip((was, now), PAPER.skills, PATH_PIXELS, strict=False):
         canvas.line(run.body[parted:, :2], colour, thick)
-    draw_start(canvas, was)
+    path.draw_start(canvas, was)
     for run, colour in zip((was, now), PAPER.skills, strict=False):
-        draw_robot(canvas, run, PAPER, run.ticks)
+        scene.draw_robot(canvas, run, PAPER, run.ticks)
         x, y, _ = run.body[-1]
         canvas.disc(x, y, was.graph.body.radius + AROUND_PIXELS * canvas.pixel, colour, width=3.0)
-        draw_collisions(canvas, run)
+        path.draw_collisions(canvas, run)
     x, y, _ = was.body[parted]
     _mark(canvas, x, y)
     scene.draw_names(canvas, was, PAPER, parted)
@@ -245,7 +231,7 @@ def _mark(canvas: Canvas, x: float, y: float) -> None:
 
 def outcome_words(found: dict[str, Any]) -> str:
     counted = [f"{times} × {event}" for event, times in found["by_event"].items()]
-    return ", ".join([f"score {score(found['score'])}", *counted, in_words(found["ticks"]), ending_words(found)])
+    return ", ".join([f"score {score(found['score'])}", *counted, in_words(found["ticks"]), path.ending_words(found)])
 
 
 def _fitting(page: Canvas, x: float, y: float, text: str, size: float, right: float) -> None:

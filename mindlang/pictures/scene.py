@@ -1,15 +1,22 @@
-"""The world of a run: floor, walls, obstacles and things, each with its name beside it and none over another."""
+"""The world of a run: floor, walls, obstacles and things, each with its name beside it and none over another.
+
+Of the robot its body is drawn, what moves it, and what its sensors look at; what is seen is lit.
+"""
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import cycle
 from math import cos, sin
+from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
 from mindrun.graph.graph import Thing
+from mindrun.graph.named_readings import servo_reading
+from mindrun.kinds.actuators.actuator import ActuatorKind
 from mindrun.kinds.registry import names
 from mindrun.kinds.scenes.scene import SceneKind
+from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.sim.task_rows import opened_boxes
 from numpy.typing import ArrayLike, NDArray
 
@@ -161,3 +168,158 @@ def free(places: Iterable[Region], taken: Iterable[Region], sight: Region) -> Re
         if place.is_within(sight) and not any(place.overlaps(other) for other in occupied):
             return place
     return choices[0]
+
+
+LIT_COMMAND = 0.5  # of a lamp: above it, it throws a beam
+BEAM_UNITS, BEAM_SLOPE = 5.0, 0.4  # how many of its sides a beam is long, and how fast it widens
+JET_SIDES = 1.6  # how long a thruster's jet is at most: one in the middle of the body is seen, too
+WHEEL_SHARES = 0.16, 0.07  # half of a car's wheel, long and wide: shares of the car's length
+RAY_END_PIXELS, SPOT_PIXELS = 2.5, 2.6  # radii
+SECTOR_POINTS = 9  # of the line that shows a switch
+SECTOR_PIXELS = 3.0  # the width of that line
+
+
+def draw_robot(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
+    """Draw the robot as it is after a tick: what it senses, claw, body, and a line that shows its heading."""
+    if tick:
+        _rays(canvas, run, theme, tick)
+        _claw(canvas, run, theme, tick)
+        _jets(canvas, run, theme, tick)
+    pose, body = run.body[tick], run.graph.body
+    if body.outline:
+        _part(canvas, to_world(body.outline, pose), theme, 1.2)
+    else:
+        canvas.disc(pose[0], pose[1], body.radius, theme.robot)
+        canvas.disc(pose[0], pose[1], body.radius, theme.floor, width=1.2)
+    _wheels(canvas, run, theme, tick)
+    canvas.line([pose[:2], *to_world([(0.95 * body.front, 0.0)], pose)], theme.floor, 2.0)
+    _lamps(canvas, run, theme, tick)
+    _touches(canvas, run, theme, tick)
+    _spots(canvas, run, theme, tick)
+
+
+def _part(canvas: Canvas, corners: Floats, theme: Theme, edge: float) -> None:
+    canvas.polygon(corners, theme.robot)
+    canvas.line(corners, theme.floor, edge, closed=True)
+
+
+def _commanded(run: RecordedRun, tick: int) -> Iterator[tuple[ActuatorKind, float]]:
+    """Each actuator and its command in a tick; as the run begins, its neutral."""
+    for number, actuator in enumerate(run.graph.actuators):
+        yield actuator.kind, float(run.commands[tick - 1, number]) if tick else actuator.kind.neutral
+
+
+def _sensed(run: RecordedRun, tick: int) -> Iterator[tuple[SensorKind, Floats]]:
+    """Each sensor and what it reads in a tick; as the run begins, nothing yet."""
+    for sensor in run.graph.sensors:
+        here = slice(sensor.start, sensor.start + sensor.width)
+        yield sensor.kind, run.readings[tick - 1, here].astype(float) if tick else np.zeros(sensor.width)
+
+
+def _wheels(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
+    body = run.graph.body
+    long, wide = (share * 2 * body.front for share in WHEEL_SHARES)
+    for ahead, turn in ((-0.5, 0.0), (0.5, steering_angle(run, tick))):
+        for side in (body.side, -body.side) if body.axle_distance else ():
+            wheel = to_world(rectangle_corners(0, 0, long, wide), np.array([ahead * body.axle_distance, side, turn]))
+            _part(canvas, to_world(wheel, run.body[tick]), theme, 1.0)
+
+
+def steering_angle(run: RecordedRun, tick: int) -> float:
+    """How far a car's front wheels are turned after a tick, counterclockwise."""
+    for kind, command in _commanded(run, tick):
+        if kind.drive == "steering":
+            return float((1 - 2 * command) * kind.row(run.graph.body)["turn"])
+    return 0.0
+
+
+def _jets(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
+    """Draw the jet of each thruster, opposite to its push, of a length proportional to its force."""
+    body, pose = run.graph.body, run.body[tick]
+    for kind, command in _commanded(run, tick):
+        if (push := kind.push(body)) is not None:
+            at, way = (np.array(each) for each in push)
+            canvas.line(to_world([at, at - JET_SIDES * body.side * (2 * command - 1) * way], pose), theme.lamp, 4.0)
+
+
+def _lamps(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
+    """Draw the lamps side by side in front, each as bright as its command; one that is lit throws a beam."""
+    lamps = [command for kind, command in _commanded(run, tick) if kind.is_light]
+    body, pose = run.graph.body, run.body[tick]
+    size = 0.7 * body.side / (2 + len(lamps))
+    for place, bright in enumerate(lamps):
+        ahead, aside = 0.6 * body.front, ((len(lamps) - 1) / 2 - place) * 2.4 * size
+        if bright > LIT_COMMAND:
+            far, wide = BEAM_UNITS * body.side, BEAM_SLOPE * BEAM_UNITS * body.side
+            ends = [(ahead + far, aside - wide), (ahead + far, aside + wide)]
+            canvas.polygon(to_world([(ahead, aside), *ends], pose), theme.lamp, 0.35 * bright)
+        [(x, y)] = to_world([(ahead, aside)], pose)
+        canvas.disc(x, y, size, theme.floor)
+        canvas.disc(x, y, size, theme.lamp, bright)
+        canvas.disc(x, y, 1.9 * size, theme.lamp, 0.4 * bright)
+
+
+def _claw(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
+    body = run.graph.body
+    for kind, command in _commanded(run, tick):
+        apart = 0.35 if command > 0.5 else 0.75
+        for side in (-1.0, 1.0) if kind.can_hold else ():
+            shape = np.array([(-0.2, 0.5 * side), (0.4, apart * side), (0.9, apart * 0.8 * side)]) * body.side
+            canvas.line(to_world(shape + np.array([body.front, 0.0]), run.body[tick]), theme.robot, 2.2)
+
+
+def _rays(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
+    """Draw each ray as far as it went; of those that a servo turns, where a sensor says how far it has turned."""
+    x, y, angle = run.body[tick]
+    for kind, readings in _sensed(run, tick):
+        turned = _turned(run, kind, tick)
+        for at, reading in zip(kind.rays, readings, strict=False):
+            # How far an eye saw is not known: something may be in the way; nor what was not measured.
+            if np.isnan(reading + turned) or (kind.thing and reading == 1.0):
+                continue
+            way = np.array([np.cos(angle + at + turned), np.sin(angle + at + turned)])
+            rim = run.graph.body.rim(at + turned)
+            end = (x, y) + way * (rim + reading * kind.reach)
+            canvas.line([(x, y) + way * rim, end], theme.ray, 1.0, 0.3 + 0.4 * (reading < 1.0))
+            if reading < 1.0:
+                canvas.disc(end[0], end[1], RAY_END_PIXELS * canvas.pixel, theme.ray)
+
+
+def _turned(run: RecordedRun, kind: SensorKind, tick: int) -> float:
+    """The angle by which the servo has turned that a sensor is on; NaN where nobody knows it."""
+    if not kind.servo:
+        return 0.0
+    told = servo_reading(run.graph, kind)
+    return np.nan if told is None else 2 * np.pi * (0.5 - float(run.readings[tick - 1, told]))
+
+
+def _touches(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
+    """Draw the switches of a bumper along the rim of the body, lit where pressed; the pressed ones lie on top."""
+    shown = [
+        (reading, _rim(run, at, kind.sector))
+        for kind, readings in _sensed(run, tick)
+        if kind.sector
+        for at, reading in zip(kind.directions, readings, strict=True)
+        if not np.isnan(reading)
+    ]
+    for reading, points in sorted(shown, key=itemgetter(0)):
+        line = to_world(points, run.body[tick])
+        canvas.line(line, theme.floor, SECTOR_PIXELS + 1.5)
+        canvas.line(line, theme.crash if reading > 0.5 else theme.faint, SECTOR_PIXELS)
+
+
+def _rim(run: RecordedRun, at: float, sector: float) -> Floats:
+    angles = at + np.linspace(-sector / 2, sector / 2, SECTOR_POINTS)
+    far = np.array([run.graph.body.rim(angle) for angle in angles])
+    points: Floats = np.column_stack([np.cos(angles), np.sin(angles)]) * far[:, None]
+    return points
+
+
+def _spots(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
+    """Draw each point of the floor that a sensor looks down at, filled where it is over what it looks for."""
+    radius = SPOT_PIXELS * canvas.pixel
+    for kind, readings in _sensed(run, tick):
+        for (x, y), reading in zip(to_world(kind.spots, run.body[tick]) if kind.spots else (), readings, strict=False):
+            if not np.isnan(reading):
+                canvas.disc(x, y, radius, theme.ray if reading > 0.5 else theme.floor)
+                canvas.disc(x, y, radius, theme.ray, width=1.0)

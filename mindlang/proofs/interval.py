@@ -3,19 +3,26 @@
 Rounding to nearest is monotone: where a ≤ b, the rounded a + x is at most the rounded b + x, and so with − × ÷. A bound
 that is computed by the engine's operations, in its precision and its order, is therefore a bound of what the engine
 computes, rounding included. Only the sigmoid, a quotient, needs a margin: `SIGMOID_ERROR`.
+
+For any readings the bounds are made tighter by branch and bound. A box whose bounds reach no further than what the
+skill was seen to send cannot be improved on, and is left alone.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
-from mindrun.graph.graph import Gate, Program, Skill
-from mindrun.graph.weights import Weights, genes
+from mindrun.graph.graph import Edge, Gate, Program, Skill
+from mindrun.graph.weights import Weights
+from mindrun.kinds.functions.mlp import Mlp
 from mindrun.numbers.arithmetic import sigmoid
 from mindrun.numbers.arrays import OPERATORS, Bools, Doubles, Singles
 from mindrun.numbers.expression import fold
-from mindrun.numbers.network import matrices
 from numpy.typing import NDArray
+
+from mindlang.proofs.trying import is_known, perceptron_matrices, readings_to_try, sent_values
 
 # More than the rounded sigmoid falls while its argument rises: 3.58e-7, measured over all float32 (docs/proofs.md).
 SIGMOID_ERROR = np.float32(5e-7)
@@ -45,20 +52,13 @@ def whole_box(width: int) -> Boxes:
 
 
 def select_boxes(of: Bounds, boxes: slice | NDArray[np.intp] | Bools) -> Bounds:
-    """Some of the boxes."""
     some: list[Any] = [each[boxes] for each in of]
     return type(of)(*some)
 
 
 def join_boxes(first: Bounds, second: Bounds) -> Bounds:
-    """The boxes of both."""
     both: list[Any] = [np.concatenate(pair) for pair in zip(first, second, strict=True)]
     return type(first)(*both)
-
-
-def is_known(skill: Skill, weights: Weights | None) -> bool:
-    """True if bounds of the skill's function can be computed: it is neither untaught nor Python code."""
-    return skill.outputs == 0 or (not skill.function.opaque and (weights is not None or genes(skill) == 0))
 
 
 def sent_bounds(skill: Skill, weights: Weights | None, boxes: Boxes) -> SentBounds:
@@ -106,11 +106,6 @@ def _gated(gate: Gate, low: Singles, high: Singles, boxes: Boxes) -> tuple[Singl
     least, most = expression_bounds(gate.otherwise, boxes)
     least, most = np.where(can_open, np.minimum(low, least), least), np.where(can_open, np.maximum(high, most), most)
     return np.where(can_close, least, low), np.where(can_close, most, high), is_known
-
-
-def perceptron_matrices(skill: Skill, weights: Weights | None) -> tuple[Singles, ...]:
-    """The matrices of its layers; none where it has nothing to learn, or was not taught."""
-    return () if weights is None else matrices(weights, skill.function.layers(len(skill.inputs), skill.outputs))
 
 
 def _outputs(skill: Skill, weights: Weights | None, boxes: Boxes) -> tuple[Singles, Singles] | None:
@@ -167,3 +162,152 @@ def _combined(operator: str, left: tuple[Doubles, Doubles], right: tuple[Doubles
     if operator == "/":
         wild |= np.sign(right[0]) != np.sign(right[1])
     return np.where(wild, -np.inf, low), np.where(wild, np.inf, high)
+
+
+SHARP_ENOUGH = 1e-3  # a bound this near to a value that was seen is sharp enough, but for 0 and 1
+BOXES_PER_ROUND = 256  # boxes that are cut in one round
+SAMPLED_READINGS = 2048  # readings, half of them corners of the box
+
+
+@dataclass(frozen=True, slots=True)
+class EdgeRange:
+    """Proved bounds of what an edge sends, and the range that was seen; `sure` if it always sends a number."""
+
+    low: float
+    high: float
+    sure: bool
+    seen: tuple[float, float] | None = None
+
+    @property
+    def is_dead(self) -> bool:
+        """True if the edge never sends more than 0."""
+        return self.high <= 0
+
+
+class Pool(NamedTuple):
+    """Boxes of readings, `least` to `most` [boxes, width], and the bounds of what is sent in them [boxes, edges]."""
+
+    least: Singles
+    most: Singles
+    low: Singles
+    high: Singles
+    sure: Bools
+
+
+def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[EdgeRange, ...]:
+    """The range of each edge of a skill when its readings may be anything in 0..1, from at most so many boxes."""
+    if not is_known(skill, weights) and skill.outputs == len(skill.edges):
+        return tuple(EdgeRange(0.0, 1.0, sure=False) for _ in skill.edges)
+    skill = by_itself(skill)
+    low, high = _seen(skill, weights)
+    found = reduce(join_boxes, _cut(skill, weights, low, high, most))
+    bounds = [found.low.min(axis=0), found.high.max(axis=0), found.sure.all(axis=0)]
+    known = is_known(skill, weights)
+    seen = [
+        (least, most_) if least <= most_ and (known or not _is_hidden(skill, edge)) else None
+        for edge, least, most_ in zip(skill.edges, low.tolist(), high.tolist(), strict=True)
+    ]
+    return tuple(EdgeRange(*each) for each in zip(*(bound.tolist() for bound in bounds), seen, strict=True))
+
+
+def by_itself(skill: Skill) -> Skill:
+    """The skill with its inputs renumbered from 0, so that boxes have only the readings that it reads."""
+    place = {reading: number for number, reading in enumerate(skill.inputs)}
+
+    def moved(program: Program) -> Program:
+        return tuple((word, place[int(x)] if word == "reading" else x) for word, x in program)
+
+    def moved_edge(edge: Edge) -> Edge:
+        gate = edge.gate and Gate(*map(moved, edge.gate.programs))
+        return replace(edge, value=moved(edge.value), gate=gate)
+
+    return replace(skill, inputs=tuple(range(len(place))), edges=tuple(moved_edge(edge) for edge in skill.edges))
+
+
+def _seen(skill: Skill, weights: Weights | None) -> tuple[Singles, Singles]:
+    """The least and the most that each edge sends for readings that are tried; 0 and 1 where it cannot be known."""
+    tried = readings_to_try(len(skill.inputs), SAMPLED_READINGS)
+    known = is_known(skill, weights)
+    found = sent_values(skill if known else replace(skill, function=Mlp(), inputs=()), weights, tried)
+    sound = np.isfinite(found)
+    found = np.clip(found, 0, 1)
+    low, high = found.min(axis=0, initial=1, where=sound), found.max(axis=0, initial=0, where=sound)
+    hidden = [not known and _is_hidden(skill, edge) for edge in skill.edges]
+    return np.where(hidden, np.float32(0), low), np.where(hidden, np.float32(1), high)
+
+
+def _is_hidden(skill: Skill, edge: Edge) -> bool:
+    """True if what an edge sends depends on the skill's function: it is an output, or chosen beside outputs."""
+    return edge.output is not None or (skill.chooses and edge.to == "skill")
+
+
+def _cut(skill: Skill, weights: Weights | None, low: Singles, high: Singles, most: int) -> list[Pool]:
+    """Pools that cover the box together; the boxes that say least are cut first."""
+    sides = len(skill.inputs)
+    open_, done, made = _pool(skill, weights, whole_box(sides)), [], 1
+    sway = sway_of(skill, weights)
+    while True:
+        excess = _excess(open_, low, high)
+        done.append(select_boxes(open_, excess <= 0))
+        open_, excess = select_boxes(open_, excess > 0), excess[excess > 0]
+        if not len(excess) or made >= most or sides == 0:
+            return [*done, open_]
+        order = np.argsort(-excess, kind="stable")
+        worst = select_boxes(open_, order[:BOXES_PER_ROUND])
+        cut = halves(Boxes(worst.least, worst.most), sway)
+        made += len(cut.low)
+        open_ = join_boxes(select_boxes(open_, order[BOXES_PER_ROUND:]), _pool(skill, weights, cut))
+
+
+def _pool(skill: Skill, weights: Weights | None, boxes: Boxes) -> Pool:
+    sent = sent_bounds(skill, weights, boxes)
+    return Pool(boxes.low, boxes.high, sent.low, sent.high, sent.sure)
+
+
+def _excess(found: Pool, low: Singles, high: Singles) -> Singles:
+    """How far the bounds of each box exceed what was seen, the most of its edges; 0 where that is close."""
+    below, above = np.maximum(low - found.low, 0), np.maximum(found.high - high, 0)
+    below[(below <= SHARP_ENOUGH) & (low < 1)] = 0  # "always 1" and "always 0" are to be proved exactly
+    above[(above <= SHARP_ENOUGH) & (high > 0)] = 0
+    farthest: Singles = np.maximum(below, above).max(axis=1)
+    return farthest
+
+
+def sway_of(skill: Skill, weights: Weights | None) -> Singles:
+    """Roughly how much each reading changes what is sent: used to choose which side of a box to cut."""
+    sway = np.full(len(skill.inputs), 1e-6, np.float32)
+    for edge in skill.edges:
+        for word, reading in (term for program in edge.programs for term in program):
+            if word == "reading":
+                sway[int(reading)] += 1
+    for matrix in perceptron_matrices(skill, weights)[:1]:
+        sway += np.minimum(np.abs(matrix), 1e6).sum(axis=0)
+    return sway
+
+
+def can_close(boxes: Boxes, sway: Singles, most: int, is_open: Callable[[Boxes], Bools]) -> bool:
+    """True if no box `is_open` any more after each that is was cut, and so on; False where that makes too many."""
+    made = len(boxes.low)
+    while len(boxes.low):
+        now, boxes = (select_boxes(boxes, part) for part in (slice(BOXES_PER_ROUND), slice(BOXES_PER_ROUND, None)))
+        open_ = select_boxes(now, is_open(now))
+        made += 2 * len(open_.low)
+        if not len(open_.low):
+            continue
+        if made > most or not ((open_.high - open_.low) * sway).max(axis=1, initial=0).all():
+            return False
+        cut = halves(open_, sway)
+        if (cut.low == cut.high).all(axis=1).any():
+            return False  # between neighbours of float32 nothing is left to cut
+        boxes = join_boxes(cut, boxes)
+    return True
+
+
+def halves(boxes: Boxes, sway: Singles) -> Boxes:
+    """Every box cut in two across the side that matters most."""
+    low, high = boxes.low, boxes.high
+    rows, side = np.arange(len(low)), ((high - low) * sway).argmax(axis=1)
+    middle = (low[rows, side] + high[rows, side]) / 2
+    upper, lower = low.copy(), high.copy()
+    upper[rows, side], lower[rows, side] = middle, middle
+    return join_boxes(Boxes(low, lower), Boxes(upper, high))

@@ -88,7 +88,6 @@ def _influence_edge(skill: Skill, edge: Edge, everything: Boxes) -> InfluenceEdg
 
 
 def paths(found: InfluenceEdges, actuators: int, listed: int) -> list[Paths]:
-    """The paths to each actuator."""
     counts = dict.fromkeys(found.skills, 0) | {found.skills[0]: 1}  # of paths from the master to each skill
     for skill in found.skills:
         for way in found.onward[skill]:
@@ -216,5 +215,4 @@ class _Leaks:
 
 
 def _share(own: float, unwanted: float) -> float:
-    """The share own / (1 + unwanted)."""
     return float(own / (1 + unwanted)) if np.isfinite(unwanted) else float(not np.isfinite(own))

@@ -21,8 +21,17 @@ from mindrun.graph.weights import reachable
 from mindrun.numbers.arrays import Bools, Singles, WeightsBySkill
 from mindrun.numbers.expression import leaves
 
-from mindlang.proofs.branch_and_bound import EdgeRange, by_itself, can_close, ranges, sway_of
-from mindlang.proofs.interval import Boxes, SentBounds, sent_bounds, whole_box
+from mindlang.proofs.interval import (
+    Boxes,
+    EdgeRange,
+    SentBounds,
+    by_itself,
+    can_close,
+    ranges,
+    sent_bounds,
+    sway_of,
+    whole_box,
+)
 
 MAX_SKILL_BOXES, MAX_TOTAL_BOXES = 20_000, 500_000  # for one skill, for all of them
 ROUNDING_MARGIN = 2.0**-22

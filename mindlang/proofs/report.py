@@ -16,8 +16,7 @@ from rich.text import Text
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.proofs.paths import MAX_COUNTED_PATHS, Leak
-from mindlang.proofs.promises import Requirement
-from mindlang.proofs.proof import DECLARATION, ActuatorClaims, EdgeClaim, Proof
+from mindlang.proofs.proof import DECLARATION, ActuatorClaims, EdgeClaim, Proof, Requirement
 from mindlang.proofs.trying import Tried
 
 if TYPE_CHECKING:

@@ -9,11 +9,10 @@ import numpy as np
 from mindrun.graph.graph import Graph, Program, Skill
 from mindrun.graph.weights import Weights, genes, reachable
 from mindrun.numbers.arrays import Singles, WeightsBySkill, columns, evaluate_rows
-from mindrun.numbers.network import FLOAT32, NOTHING
+from mindrun.numbers.network import FLOAT32, NOTHING, matrices
 from networkx import DiGraph
 
 from mindlang.compiler.hierarchy import with_ancestors
-from mindlang.proofs.interval import is_known, perceptron_matrices
 
 TRIED_READINGS, MAX_WEIGHT_READINGS = 4096, 20_000_000  # readings, and weights times readings
 
@@ -45,6 +44,16 @@ def think_rows(graph: Graph, weights: WeightsBySkill, readings: Singles) -> Thou
                     sums[:, edge.target] += share
                     totals[:, edge.target] += np.where(sound, own, 0)
         return ThoughtRows(influence, totals, np.clip(sums / totals, 0, 1))
+
+
+def is_known(skill: Skill, weights: Weights | None) -> bool:
+    """True if bounds of the skill's function can be computed: it is neither untaught nor Python code."""
+    return skill.outputs == 0 or (not skill.function.opaque and (weights is not None or genes(skill) == 0))
+
+
+def perceptron_matrices(skill: Skill, weights: Weights | None) -> tuple[Singles, ...]:
+    """The matrices of its layers; none where it has nothing to learn, or was not taught."""
+    return () if weights is None else matrices(weights, skill.function.layers(len(skill.inputs), skill.outputs))
 
 
 def sent_values(skill: Skill, weights: Weights | None, readings: Singles) -> Singles:

@@ -18,7 +18,7 @@ from mindrun.train.scoring import Purpose, layouts, mark
 from numpy.typing import NDArray
 
 from mindlang.compiler.compile import Compiled, compile_source
-from mindlang.compiler.splice import spliced
+from mindlang.compiler.source import spliced
 from mindlang.editing.edits.add import add
 from mindlang.editing.project import project_alone
 from mindlang.lock import Lock, lock_sources, read_locks

@@ -21,7 +21,6 @@ from mindlang.editing.summary import broken_sentences, summarise
 from mindlang.lock import Locks, lock_sources, lock_text, locks_of, merged
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import Trained, status
-from mindlang.server.navigating import sharing
 from mindlang.server.workspace import MindView, Workspace
 
 
@@ -56,7 +55,7 @@ def project(workspace: Workspace, view: MindView) -> Project:
     if view.compiled.graph is None:
         first = next(each for each in view.compiled.diagnostics if each.severity == "error")
         raise EditError(f"{view.main.name} has to compile first. {first.message}", first.hint, first.span)
-    shared = (project_alone(other.compiled) for other in sharing(workspace, view) if other.compiled.graph)
+    shared = (project_alone(other.compiled) for other in workspace.sharing(view) if other.compiled.graph)
     return replace(project_alone(view.compiled), neighbours=tuple(shared))
 
 

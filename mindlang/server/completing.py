@@ -23,29 +23,16 @@ from mindrun.sim.outside import making
 from mindlang.breakpoints.breakpoint import FAULT, OF, ROBOT_WORDS
 from mindlang.compiler import syntax
 from mindlang.compiler.families import letter_in
+from mindlang.compiler.names import names_in
 from mindlang.compiler.parse.shape import Start, grammar, parse_line
-from mindlang.compiler.references import names_in
 from mindlang.compiler.resolve.curricula import MEASURED, SWITCHES, USING
 from mindlang.compiler.resolve.kinds import about
 from mindlang.compiler.resolve.layouts import HARD
 from mindlang.compiler.source import Source
 from mindlang.compiler.syntax import Amount, Declaration, Header, Phrase, Teaches
-from mindlang.editing.insertion import OWNERS
 from mindlang.files import files_below
-from mindlang.server.offers import (
-    Offer,
-    functions,
-    keys,
-    kinds_of,
-    names,
-    said_of,
-    things,
-    units,
-    units_of,
-    varied,
-    varying_parts,
-    words,
-)
+from mindlang.server import offers
+from mindlang.server.offers import Offer
 from mindlang.server.places import declaration_at, noun_of_kind, on_line, path_to, said_argument
 from mindlang.server.workspace import MindView, are_breakpoints
 
@@ -149,14 +136,14 @@ def complete(view: MindView, path: Path, text: str, offset: int) -> Completion:
 def _offers(line: CursorLine) -> Iterator[Offer]:
     match line.code.split():
         case [] if line.start == "stop":
-            yield from words("stop")
+            yield from offers.words("stop")
         case []:  # the verbs that fit the declaration above, then what else begins a line
-            own = OWNERS.get(line.above.header.noun.text, ()) if line.above else ()
-            yield from words(*own, *syntax.NOUNS, *syntax.SETTINGS)
+            own = syntax.VERBS_OF.get(line.above.header.noun.text, ()) if line.above else ()
+            yield from offers.words(*own, *syntax.NOUNS, *syntax.SETTINGS)
         case [*_, "least" | "greatest"]:
             yield Offer("of", "word")
         case [first, *rest, "its"]:
-            yield from words("reward" if first == "rewards" and "on" not in rest else "end")
+            yield from offers.words("reward" if first == "rewards" and "on" not in rest else "end")
         case _:
             yield from _behind_words(line, _accepted(line.code, line.start))
 
@@ -212,17 +199,17 @@ def _units(line: CursorLine, last: Sequence[Any]) -> Iterator[Offer]:
     """The units of the number behind which the line ends."""
     said = said_argument(last, line.above)
     if said and said.meaning:
-        yield from units_of(said.meaning)
+        yield from offers.units_of(said.meaning)
     match last:
         case _ if line.code.split()[-1] == "per":
-            yield from units("s")
+            yield from offers.units("s")
         case [syntax.Varies() as fact, Amount()]:
-            argument = varied(line.view, line.above, fact)
-            yield from units_of(argument) if argument else ()
+            argument = offers.varied(line.view, line.above, fact)
+            yield from offers.units_of(argument) if argument else ()
         case [syntax.Starts(facing=facing), Amount() as amount] if amount is facing:
-            yield from units("deg")
+            yield from offers.units("deg")
         case [*_, parent, Amount()]:
-            yield from units(*UNITS.get(type(parent), ()))
+            yield from offers.units(*UNITS.get(type(parent), ()))
 
 
 def _range_words(line: CursorLine, last: Sequence[Any], end: int) -> Iterator[Offer]:
@@ -238,7 +225,7 @@ def _range_words(line: CursorLine, last: Sequence[Any], end: int) -> Iterator[Of
                 if said.meaning.shape == "list" or (said.argument.key.text == "size" and "reached" in keys):
                     yield Offer("by", "word")
     if said and said.noun == "sensor" and said.argument.span.end == end:
-        yield from words("or") if said.meaning and said.meaning.type == Reference("thing") else ()
+        yield from offers.words("or") if said.meaning and said.meaning.type == Reference("thing") else ()
 
 
 def _kinds(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
@@ -247,9 +234,9 @@ def _kinds(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
         case [*_, above, Phrase(kind=kind), name] if kind is name:
             noun = noun_of_kind(above)
             if noun != "measure" or isinstance(nodes[0], syntax.Rewards | syntax.Outcome):
-                yield from kinds_of(noun)
+                yield from offers.kinds_of(noun)
             if noun == "event" and line.start == "stop":
-                yield from words(*ROBOT_WORDS)
+                yield from offers.words(*ROBOT_WORDS)
 
 
 def _arguments(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
@@ -262,25 +249,25 @@ def _arguments(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
     match said.argument.key.text, said.meaning:
         case key, _ if said.argument.key is nodes[-1]:
             cls = kinds(said.noun).get(said.kind)
-            yield from keys(each for each in named_arguments(cls) if each.key not in written) if cls else ()
+            yield from offers.keys(each for each in named_arguments(cls) if each.key not in written) if cls else ()
             if is_lesson:
                 switches = {**{key: f"{key} {word}" for key, (word, _) in SWITCHES.items()}, USING: USING, HARD: HARD}
-                yield from words(*(label for key, label in switches.items() if key not in written))
+                yield from offers.words(*(label for key, label in switches.items() if key not in written))
             if said.kind == FAULT or (is_lesson and HARD in written):
-                yield from words(OF)
+                yield from offers.words(OF)
         case key, None if is_lesson and key in SWITCHES:
-            yield from words(SWITCHES[key][0])
+            yield from offers.words(SWITCHES[key][0])
         case "using", None if is_lesson:
-            yield from kinds_of("curriculum")
+            yield from offers.kinds_of("curriculum")
         case "of", None if said.kind == FAULT:
-            yield from names(line.view, "sensor")
+            yield from offers.names(line.view, "sensor")
         case key, registry.Argument(type=Reference(noun="thing")):
-            yield from words(*[ROBOT] * (said.noun == "content"))
-            yield from things(line.view, _task(line, nodes[0]), about(said.noun, said.kind, key))
+            yield from offers.words(*[ROBOT] * (said.noun == "content"))
+            yield from offers.things(line.view, _task(line, nodes[0]), about(said.noun, said.kind, key))
         case _, registry.Argument(type=Reference(noun="servo")):
-            yield from names(line.view, "actuator")
+            yield from offers.names(line.view, "actuator")
         case _, registry.Argument(type=meaning) if meaning == FUNCTION:
-            yield from (Offer(name, "function") for name in functions(line.folder))
+            yield from (Offer(name, "function") for name in offers.functions(line.folder))
         case _, registry.Argument(type=Reference(words=allowed)):
             yield from (Offer(word, "word") for word in allowed)
 
@@ -298,15 +285,15 @@ def _names(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
         case [*_, Amount()]:
             nouns = ("number", *(["draw"] if isinstance(nodes[0], syntax.Contains) else []))
         case [syntax.Stays(), _]:
-            yield from words("frozen")
+            yield from offers.words("frozen")
         case [syntax.Chooses(), _]:
-            yield from words("one")
+            yield from offers.words("one")
         case [*_, syntax.Needs(), _]:
-            yield from words(*MEASURED)
+            yield from offers.words(*MEASURED)
         case [syntax.Varies() as fact, name]:
-            varying = dict(varying_parts(line.view, line.above))
+            varying = dict(offers.varying_parts(line.view, line.above))
             if name is fact.argument:
-                yield from keys({each.key: each for found in varying.values() for each in found}.values())
+                yield from offers.keys({each.key: each for found in varying.values() for each in found}.values())
             else:
                 argument = fact.argument.text
                 yield from (part for part, found in varying.items() if argument in {each.key for each in found})
@@ -314,7 +301,7 @@ def _names(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
             nouns = ("skill",) if name is skill else ("skill", "actuator", "memory")
         case [read, *_, name]:
             nouns = next((nouns for found, nouns in names_in(read) if found is name), ())
-    yield from _sayable(line, nodes, names(line.view, *nouns))
+    yield from _sayable(line, nodes, offers.names(line.view, *nouns))
 
 
 def _sayable(line: CursorLine, nodes: Sequence[Any], known: list[Offer]) -> list[Offer]:
@@ -326,7 +313,7 @@ def _sayable(line: CursorLine, nodes: Sequence[Any], known: list[Offer]) -> list
         case syntax.Contains():
             return [each for each in known if each.sort in ("number", "draw")]
         case syntax.Reads() | syntax.Sends() as fact if fact.stands_for is nodes[-1]:
-            replaceable = said_of(line.view, own.like.text, type(fact)) if own and own.like else ()
+            replaceable = offers.said_of(line.view, own.like.text, type(fact)) if own and own.like else ()
             return [each for each in known if each.label in replaceable]
         case syntax.Reads() | syntax.Sends() as fact if fact.name is nodes[-1]:
             but = line.said(type(fact)) | ({own.name.text} if own else set())
@@ -352,4 +339,4 @@ def _words(line: CursorLine, accepted: set[str]) -> Iterator[Offer]:
             if word == "where" and not letter_in(line.code):
                 continue  # no family without a letter
             if label and (is_like or word != "for" or line.first not in ("reads", "drives", "influences")):
-                yield from words(label)
+                yield from offers.words(label)

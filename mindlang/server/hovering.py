@@ -14,10 +14,8 @@ from mindlang.compiler import syntax
 from mindlang.compiler.drawing import text_after_name
 from mindlang.compiler.resolve.curricula import USING
 from mindlang.compiler.source import Span, comment_of
-from mindlang.explaining import markdown
-from mindlang.explaining.kinds import kind_article
-from mindlang.explaining.parameters import parameter
-from mindlang.explaining.words import language_words
+from mindlang.explaining.article import article_card, parameter_line
+from mindlang.explaining.kinds import kind_article, language_words, parameter
 from mindlang.lock import lock_sources
 from mindlang.lock.report import made_by, rows
 from mindlang.lock.status import Trained
@@ -54,7 +52,7 @@ def _kind(view: MindView, file: syntax.File, offset: int) -> Hover | None:
         argument = varied(view, declaration_at(file, offset), varies)
         if argument is None or not varies.argument.span.start <= offset <= varies.argument.span.end:
             return None
-        return Hover(markdown.parameter_line(parameter(argument)), varies.argument.span)
+        return Hover(parameter_line(parameter(argument)), varies.argument.span)
     match path:
         case [*_, above, syntax.Phrase(kind=kind), syntax.Name() as name] if name is kind:
             return _kind_itself(noun_of_kind(above), kind)
@@ -68,12 +66,12 @@ def _kind(view: MindView, file: syntax.File, offset: int) -> Hover | None:
         return None
     article = kind_article(said.noun, said.kind)
     known = next(each for each in article.parameters if each.key == said.meaning.key)
-    parts = [markdown.parameter_line(known), f"of **{article.name}**: {article.summary}", *article.paragraphs]
+    parts = [parameter_line(known), f"of **{article.name}**: {article.summary}", *article.paragraphs]
     return Hover("\n\n".join(parts), said.argument.span)
 
 
 def _kind_itself(noun: str, kind: syntax.Name) -> Hover | None:
-    return Hover(markdown.article_card(kind_article(noun, kind.text)), kind.span) if kind.text in kinds(noun) else None
+    return Hover(article_card(kind_article(noun, kind.text)), kind.span) if kind.text in kinds(noun) else None
 
 
 def _word(view: MindView, file: syntax.File, offset: int) -> Hover | None:
@@ -89,11 +87,11 @@ def _word(view: MindView, file: syntax.File, offset: int) -> Hover | None:
     if (found := here(_WORD)) is None:
         return None
     if joint := here(rf"\b(?:{'|'.join(word for word in words if ' ' in word)})\b"):
-        return Hover(markdown.article_card(words[joint[0]]), joint[1])
+        return Hover(article_card(words[joint[0]]), joint[1])
     word, span = found
     if noun := view.names.noun_of(word, syntax.NOUNS):
         return Hover(card(view, noun, word), span)
-    return Hover(markdown.article_card(words[word]), span) if word in words else None
+    return Hover(article_card(words[word]), span) if word in words else None
 
 
 def card(view: MindView, noun: str, name: str) -> str:
@@ -123,7 +121,7 @@ def card(view: MindView, noun: str, name: str) -> str:
         case "sensor" | "memory" | "actuator":
             parts.append(_part(view, noun, name))
     if header.phrase and header.phrase.kind.text in kinds(noun):
-        parts.append(f"---\n{markdown.article_card(kind_article(noun, header.phrase.kind.text))}")
+        parts.append(f"---\n{article_card(kind_article(noun, header.phrase.kind.text))}")
     return "\n\n".join(filter(None, parts))
 
 

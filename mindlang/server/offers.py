@@ -12,10 +12,8 @@ from mindrun.numbers.quantity import Quantity
 from mindlang.compiler.names import declared_things
 from mindlang.compiler.source import comment_of
 from mindlang.compiler.syntax import Declaration, Draws, Reads, Sends, Varies, of_form
-from mindlang.explaining import markdown
-from mindlang.explaining.kinds import kind_article
-from mindlang.explaining.parameters import meaning, parameter
-from mindlang.explaining.words import language_words
+from mindlang.explaining.article import article_card, parameter_line
+from mindlang.explaining.kinds import kind_article, language_words, meaning, parameter
 from mindlang.files import files_beside, readable_text
 from mindlang.server.workspace import MindView
 
@@ -55,7 +53,7 @@ def names(view: MindView, *nouns: str) -> list[Offer]:
 
 
 def kinds_of(noun: str) -> list[Offer]:
-    return [Offer(name, "kind", noun, markdown.article_card(kind_article(noun, name))) for name in sorted(kinds(noun))]
+    return [Offer(name, "kind", noun, article_card(kind_article(noun, name))) for name in sorted(kinds(noun))]
 
 
 def said_of(view: MindView, skill: str, form: type[Reads | Sends]) -> set[str]:
@@ -92,7 +90,7 @@ def functions(folder: Path) -> list[str]:
 def keys(parameters: Iterable[Argument]) -> list[Offer]:
     """Arguments that may be said, those first that must be."""
     first = sorted(parameters, key=lambda each: not each.required)
-    return [Offer(each.key, "key", meaning(each), markdown.parameter_line(parameter(each))) for each in first]
+    return [Offer(each.key, "key", meaning(each), parameter_line(parameter(each))) for each in first]
 
 
 def units_of(parameter: Argument) -> list[Offer]:

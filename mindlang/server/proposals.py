@@ -12,8 +12,7 @@ from mindrun.graph.skill_sets import genes
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.diagnostic import Diagnostic, Fix, listed
 from mindlang.compiler.hierarchy import with_ancestors, with_descendants
-from mindlang.compiler.source import Source
-from mindlang.compiler.splice import Splice
+from mindlang.compiler.source import Source, Splice
 from mindlang.compiler.syntax import Declaration, Drives, Fact, Influences, Reads, of_form
 from mindlang.editing.apply import refuse_in_families
 from mindlang.editing.project import EditError, Project, has_outputs, kind_of

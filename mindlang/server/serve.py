@@ -13,9 +13,8 @@ from mindrun.errors import MindError
 from pygls.exceptions import JsonRpcException
 
 from mindlang.compiler.families import is_of_family
-from mindlang.compiler.references import Mention
-from mindlang.compiler.source import Source, Span
-from mindlang.compiler.splice import Splice, spliced
+from mindlang.compiler.names import Mention
+from mindlang.compiler.source import Source, Span, Splice, spliced
 from mindlang.editing.edits import edit, names
 from mindlang.editing.project import EditError
 from mindlang.server.changing import EditOutcome, project

@@ -22,8 +22,7 @@ from pygls.workspace import PositionCodec
 from mindlang.breakpoints.resolve import breakpoints_of
 from mindlang.breakpoints.subject import subject_of_mind
 from mindlang.compiler.diagnostic import Diagnostic, listed
-from mindlang.compiler.source import Source, Span
-from mindlang.compiler.splice import Splice
+from mindlang.compiler.source import Source, Span, Splice
 from mindlang.server.changing import EditOutcome, PendingRename, keep_up, perform
 from mindlang.server.workspace import MindView, Workspace, are_breakpoints
 

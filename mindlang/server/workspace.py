@@ -13,8 +13,7 @@ from mindlang.breakpoints import SUFFIX
 from mindlang.compiler.compile import Compiled, load, read_files
 from mindlang.compiler.diagnostic import Diagnostic, Findings
 from mindlang.compiler.expand import expand
-from mindlang.compiler.names import Names, declared_names
-from mindlang.compiler.references import Mention, mentions
+from mindlang.compiler.names import Mention, Names, declared_names, mentions
 from mindlang.compiler.resolve.maps import map_paths
 from mindlang.compiler.source import Span, checked_text
 from mindlang.compiler.syntax import File
@@ -159,6 +158,15 @@ class Workspace:
         open_ = (other for other in self.texts if other.parent in folders)
         others = dict.fromkeys(chain(open_, chain.from_iterable(map(files_beside, folders))))
         yield from within_read_limits((other, self.text(other)) for other in others if [other] != [*paths])
+
+    def sharing(self, view: MindView) -> Iterator[MindView]:
+        """Other minds that have one of a mind's files among their own."""
+        own = set(view.paths)
+        for path, text in self.around(*view.paths):
+            if path != view.main and (path in own or 'use "' in text):
+                other = self.mind(path)
+                if not own.isdisjoint(other.paths):
+                    yield other
 
     def _is_now(self, known: MindView, stamps: dict[Path, Stamp]) -> bool:
         """True if a view is of the files as they are."""

@@ -16,7 +16,7 @@ from mindlang.breakpoints.resolve import BreakpointFile, breakpoints_of, load_br
 from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import MAX_UNREADABLE_LINES, parse_stops
-from mindlang.compiler.parse.mistakes import Mistake, common_mistakes
+from mindlang.compiler.parse.explain import Mistake, common_mistakes
 from mindlang.compiler.source import Source
 from tests.breakpoints.subjects import subject
 

@@ -14,7 +14,7 @@ from mindrun.graph.weights import genes, owners, reachable
 
 from mindlang.compiler.compile import load
 from mindlang.compiler.families import is_of_family, letter_in
-from mindlang.compiler.references import introductions
+from mindlang.compiler.names import introductions
 from mindlang.editing.apply import apply_edit
 from mindlang.editing.edits import edit
 from mindlang.editing.lock_update import new_names, update_locks

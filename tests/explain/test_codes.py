@@ -10,17 +10,17 @@ from mindlang.audit import findings
 from mindlang.breakpoints.resolve import breakpoints_of
 from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Diagnostic
-from mindlang.compiler.parse.mistakes import common_mistakes
+from mindlang.compiler.parse.explain import common_mistakes
 from mindlang.compiler.resolve.curricula import SWITCHES
 from mindlang.compiler.source import Source
 from mindlang.explaining.article import Article
-from mindlang.explaining.collection import ERROR, FINDING, error_articles
+from mindlang.explaining.collection import ERROR, FINDING
 from mindlang.explaining.collection import codes as all_codes
 from tests.breakpoints.subjects import subject
 from tests.explain.examples import ENVIRONMENTS, write
 from tests.project.sources import COMPILER, RUNTIME, modules, nodes
 
-ALL = list(error_articles())
+ALL = [each for each in all_codes().values() if each.noun == ERROR]
 EMITTERS = {
     "error",
     "refuse",

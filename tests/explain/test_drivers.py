@@ -9,9 +9,8 @@ from mindrun.robot.driver_support import PIN
 from docs.reference.pages import reference
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.source import Source
-from mindlang.explaining.article import Article, sections
-from mindlang.explaining.drivers import GPIO_PINS, HEADER_PINS, NAMED_PINS, NOUNS, driver_articles
-from mindlang.explaining.markdown import article_card
+from mindlang.explaining.article import Article, article_card, sections
+from mindlang.explaining.collection import DRIVER_NOUNS, GPIO_PINS, HEADER_PINS, NAMED_PINS, driver_articles
 from mindlang.explaining.terminal import LINE_COLUMNS, article_text
 from mindlang.robot.driver import wired
 from mindlang.robot.options import driver_options, drivers
@@ -22,7 +21,7 @@ every_driver = pytest.mark.parametrize("article", driver_articles(), ids=lambda 
 
 def noun_of(article: Article) -> str:
     """Of what a driver is."""
-    return next(noun for noun in NOUNS if article.chapter == f"For {noun}s")
+    return next(noun for noun in DRIVER_NOUNS if article.chapter == f"For {noun}s")
 
 
 def printed(article: Article) -> str:
@@ -31,7 +30,7 @@ def printed(article: Article) -> str:
 
 
 def test_every_driver_has_an_article_and_nothing_else_has() -> None:
-    known = [(noun, name) for noun in NOUNS for name in sorted(drivers(noun))]
+    known = [(noun, name) for noun in DRIVER_NOUNS for name in sorted(drivers(noun))]
     assert [(noun_of(each), each.name) for each in driver_articles()] == known
     assert sorted((each.chapter, each.name) for each in sections("drivers.md")) == sorted(known)
 

@@ -8,9 +8,8 @@ from mindrun.kinds.registry import arguments, kinds
 
 from docs.reference.pages import reference
 from mindlang.compiler.compile import load
-from mindlang.explaining.article import SCALE_MARKS, Article, sections
+from mindlang.explaining.article import SCALE_MARKS, Article, article_card, sections
 from mindlang.explaining.kinds import NOUNS, kind_articles
-from mindlang.explaining.markdown import article_card
 from mindlang.explaining.terminal import LINE_COLUMNS, article_text, kind_list
 from tests.explain.examples import write_among
 

@@ -6,9 +6,8 @@ import pytest
 
 from mindlang.compiler.compile import load
 from mindlang.explaining.article import Article
-from mindlang.explaining.kinds import NOUNS, kind_articles
+from mindlang.explaining.kinds import NOUNS, kind_articles, language_words, word_articles, words_of
 from mindlang.explaining.terminal import LINE_COLUMNS, article_text
-from mindlang.explaining.words import language_words, word_articles, words_of
 from tests.explain.examples import write_among
 
 SPOKEN = ("reading", "command", "influence", "reward", "lesson", "learner")  # terms that no line of a mind shows alone

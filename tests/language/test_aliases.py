@@ -9,7 +9,7 @@ from hypothesis import assume, given
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.source import Source
 from mindlang.editing.apply import apply_edit
-from mindlang.editing.edits.disconnect import disconnect
+from mindlang.editing.edits.hierarchy import disconnect
 from mindlang.editing.edits.rename import rename
 from mindlang.editing.project import EditError, open_project
 from mindlang.lock import lock_sources

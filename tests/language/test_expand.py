@@ -10,7 +10,7 @@ from mindrun.numbers.quantity import DECAY, RATE
 
 from mindlang.compiler.comparison import MindDifference, mind_differences
 from mindlang.compiler.compile import Compiled
-from mindlang.compiler.references import mentions
+from mindlang.compiler.names import mentions
 from tests.language.examples import compiled
 
 PARTS = """\

@@ -12,7 +12,7 @@ from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.compile import compile_source, load
 from mindlang.compiler.diagnostic import Diagnostic, Findings
 from mindlang.compiler.parse import parse
-from mindlang.compiler.parse.mistakes import common_mistakes
+from mindlang.compiler.parse.explain import common_mistakes
 from mindlang.compiler.source import Source
 
 HERE = Path(__file__).parent

@@ -8,8 +8,7 @@ from hypothesis import strategies as st
 
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
-from mindlang.compiler.source import Source, Span
-from mindlang.compiler.splice import Splice, spliced
+from mindlang.compiler.source import Source, Span, Splice, spliced
 from mindlang.editing.insertion import declare, first_line, insert_below, remove_lines, text_of, without_declarations
 from mindlang.editing.project import EditError, refuse_misnamed
 from mindlang.editing.unified_diff import unified

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import pytest
 
-from mindlang.explaining.words import language_words
+from mindlang.explaining.kinds import language_words
 from tests.language.examples import ROOT
 
 INDEX = ROOT / "docs" / "language.md"

@@ -12,7 +12,7 @@ from mindrun.train.run_folder import open_run
 import mindlang
 from mindlang.compiler.compile import load
 from mindlang.editing.apply import apply_edit, write
-from mindlang.editing.edits.unshare import unshare
+from mindlang.editing.edits.weights import unshare
 from mindlang.editing.project import open_project
 from mindlang.lock import read_lock
 from mindlang.lock.report import rows

@@ -3,8 +3,7 @@
 import pytest
 
 from mindlang.compiler.diagnostic import Diagnostic, Fix
-from mindlang.compiler.source import Source
-from mindlang.compiler.splice import Splice
+from mindlang.compiler.source import Source, Splice
 from mindlang.lint.lint import apply_safe_fixes
 
 TEXT = "abcdef"

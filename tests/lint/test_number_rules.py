@@ -2,7 +2,7 @@
 
 import pytest
 
-from mindlang.lint.rules.zero_division import HINT, MESSAGE
+from mindlang.lint.rules.values import HINT, MESSAGE
 from tests.lint.examples import Tell
 from tests.lint.minds import WHEELS
 

@@ -6,7 +6,7 @@ import pytest
 
 from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Diagnostic
-from mindlang.compiler.splice import spliced
+from mindlang.compiler.source import spliced
 from mindlang.lint.lint import lint
 from tests.lint.examples import whole
 from tests.lint.more_examples import bad_examples

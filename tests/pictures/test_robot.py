@@ -12,8 +12,7 @@ from mindrun.kinds.scenes.scene import Arena
 from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Region, Viewport, blank, text_width
 from mindlang.pictures.picture import height_of, picture
-from mindlang.pictures.robot import draw_robot, steering_angle
-from mindlang.pictures.scene import NAME_PIXELS, draw_names, free, to_world
+from mindlang.pictures.scene import NAME_PIXELS, draw_names, draw_robot, free, steering_angle, to_world
 from mindlang.pictures.theme import PAPER
 from mindlang.run.outcome import run_data
 from mindlang.run.recorded_run import RecordedRun, record_run

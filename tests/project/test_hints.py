@@ -18,7 +18,7 @@ from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, nodes
 # What stands behind `mindc` there is no file: a noun, an edit, a project's name, a seed, a command, an error.
 NO_FILES = {
     "mindlang/attribution/ends.py", "mindlang/cli/new.py", "mindlang/explaining/collection.py",
-    "mindlang/explaining/words.py", "mindlang/run/summary.py", "mindlang/server/serve.py",
+    "mindlang/explaining/kinds.py", "mindlang/run/summary.py", "mindlang/server/serve.py",
     "mindlang/server/server.py", "mindlang/diagnosis.py",
     "runtime/mindrun/graph/bundle.py", "runtime/mindrun/robot/live_view.py",
 }  # fmt: skip

@@ -9,9 +9,8 @@ from mindrun.graph.weights import NO_WEIGHTS, genes
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
 
-from mindlang.proofs import branch_and_bound
-from mindlang.proofs.branch_and_bound import SHARP_ENOUGH, EdgeRange, by_itself, halves, ranges, sway_of
-from mindlang.proofs.interval import Boxes, SentBounds
+from mindlang.proofs import interval
+from mindlang.proofs.interval import SHARP_ENOUGH, Boxes, EdgeRange, SentBounds, by_itself, halves, ranges, sway_of
 from mindlang.proofs.trying import readings_to_try, sent_values
 from tests.draws import cases
 from tests.hierarchies import random_graph
@@ -48,7 +47,7 @@ def test_only_so_many_boxes_are_cut_in_a_round() -> None:
 
 def test_what_says_least_is_cut_first(monkeypatch: pytest.MonkeyPatch) -> None:
     """One box at a time: three cuts leave four boxes, of which none is wider than a quarter."""
-    monkeypatch.setattr(branch_and_bound, "BOXES_PER_ROUND", 1)
+    monkeypatch.setattr(interval, "BOXES_PER_ROUND", 1)
     assert range_of(NOTHING, 4).high == 0.5
     assert range_of(NOTHING, 6).high == 0.25
     assert range_of(NOTHING, 14).high == 0.125
@@ -57,7 +56,7 @@ def test_what_says_least_is_cut_first(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("at_once", [1, 2, 5])
 def test_boxes_that_wait_keep_what_is_sent_in_them(monkeypatch: pytest.MonkeyPatch, at_once: int) -> None:
     """1/2 + r² − r is 1/4 to 1/2; (r·s − 3r/4 − s/4) / 2 + 1/2, from 1/8 to 1/2, is least in one corner of four."""
-    monkeypatch.setattr(branch_and_bound, "BOXES_PER_ROUND", at_once)
+    monkeypatch.setattr(interval, "BOXES_PER_ROUND", at_once)
     bowl = range_of((*R0, *R0, ("*", 0), *R0, ("-", 0), *number(0.5), ("+", 0)), 3000)
     assert 0.25 - SHARP_ENOUGH <= bowl.low <= 0.25
     assert 0.5 <= bowl.high <= 0.5 + SHARP_ENOUGH
@@ -128,8 +127,8 @@ def test_of_python_code_nothing_is_seen() -> None:
 
 
 def test_nothing_is_cut_for_a_function_that_is_not_known(monkeypatch: pytest.MonkeyPatch) -> None:
-    looked, sent = [], branch_and_bound.sent_bounds
-    monkeypatch.setattr(branch_and_bound, "sent_bounds", lambda *arguments: looked.append(1) or sent(*arguments))
+    looked, sent = [], interval.sent_bounds
+    monkeypatch.setattr(interval, "sent_bounds", lambda *arguments: looked.append(1) or sent(*arguments))
     ranges(Skill("Top", Procedure("a.b"), (0,), (Edge("skill", 1, 0), always("skill", 2, 0.25))), None, 99)
     assert len(looked) == 1
 
@@ -217,4 +216,4 @@ def test_how_far_a_box_reaches_beyond_what_was_seen() -> None:
     found = SentBounds(
         np.array([r[0] for r in rows], np.float32), np.array([r[1] for r in rows], np.float32), np.ones((7, 3), bool)
     )
-    assert branch_and_bound._excess(found, low, high).tolist() == pytest.approx([r[2] for r in rows], abs=1e-6)
+    assert interval._excess(found, low, high).tolist() == pytest.approx([r[2] for r in rows], abs=1e-6)

@@ -17,11 +17,10 @@ from mindlang.proofs.interval import (
     Boxes,
     SentBounds,
     expression_bounds,
-    is_known,
     perceptron_bounds,
     sent_bounds,
 )
-from mindlang.proofs.trying import sent_values
+from mindlang.proofs.trying import is_known, sent_values
 from tests.minds import always, rule, skill
 
 SHARES = st.floats(0, 1, width=32)

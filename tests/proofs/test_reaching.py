@@ -10,7 +10,7 @@ from mindrun.graph.policy import Policy
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
 
-from mindlang.proofs import branch_and_bound, reach
+from mindlang.proofs import interval, reach
 from mindlang.proofs.proof import ActuatorClaims, prove
 from mindlang.proofs.reach import ROUNDING_MARGIN, Bound, Driven
 from mindlang.proofs.trying import think_rows
@@ -223,7 +223,7 @@ def test_boxes_beyond_one_round_are_waited_for(monkeypatch: pytest.MonkeyPatch) 
     """However few are looked at at once."""
     expected = claim(*bisected(0.002))
     for at_once in (1, 2, 3):
-        monkeypatch.setattr(branch_and_bound, "BOXES_PER_ROUND", at_once)
+        monkeypatch.setattr(interval, "BOXES_PER_ROUND", at_once)
         assert claim(*bisected(0.002)) == expected
 
 

@@ -9,7 +9,7 @@ import pytest
 from lark import Token, Tree, UnexpectedInput
 
 from mindlang.compiler.parse.shape import Start, grammar
-from mindlang.explaining.words import words_of
+from mindlang.explaining.kinds import words_of
 from tests.language.examples import EXAMPLES
 from tests.server.textmate import scopes
 

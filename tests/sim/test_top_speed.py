@@ -11,7 +11,7 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
 from mindlang.compiler.compile import load
-from mindlang.compiler.splice import spliced
+from mindlang.compiler.source import spliced
 from mindlang.lint.lint import lint
 from mindlang.lint.top_speed import step_of
 from tests.calling import Call

@@ -1,8 +1,9 @@
 """Lark's tree of one line → the structs of `syntax`."""
 
 import re
-from collections.abc import Iterator, Mapping
-from typing import Any, cast
+from collections.abc import Mapping
+from functools import cache
+from typing import Any, cast, get_type_hints
 
 from lark import Token, Tree, v_args
 from lark.visitors import Transformer_NonRecursive
@@ -17,51 +18,29 @@ Terms = list[Amount | Phrase | Term]
 SIGNS = ("+", "-")
 
 _NUMBER = re.compile(r"([+-]?)[ \t]*([0-9./]+)")
-# Rules whose parts are the fields of a struct in their order, but for the span; the last may be missing.
+# Rules that are not called as the struct that they become. Which field of it a part is, the field's type says.
 _FORMS: Mapping[str, type[Struct]] = {
-    "master": syntax.Master, "tick": syntax.Tick, "mind": syntax.Version, "unit": syntax.Unit, "number": syntax.Number,
-    "reads": syntax.Reads, "gate": syntax.Gate, "chooses": syntax.Chooses, "stays": syntax.Stays,
-    "uses": syntax.Uses, "within": syntax.Within,
-    "requires": syntax.Requires, "maintains": syntax.Maintains, "achieves": syntax.Achieves,
-    "contains": syntax.Contains, "varies": syntax.Varies, "fails": syntax.Fails, "lasts": syntax.Lasts,
-    "counts": syntax.Counts, "transmission": syntax.Transmits,
-    "each": syntax.Each, "when": syntax.When, "comparison": syntax.Comparison, "argument": Argument,
-    "setting": Argument, "origin": Argument, "family": syntax.Family,
-    "deadline": syntax.Deadline, "after": syntax.Deadline, "lasting": syntax.Lasting,
+    **{form.__name__.lower(): form for form in vars(syntax).values() if isinstance(form, type(Struct))},
+    "mind": syntax.Version, "transmission": syntax.Transmits, "setting": Argument, "origin": Argument,
+    "often": syntax.Needs, "until": syntax.Needs, "after": syntax.Deadline,
 }  # fmt: skip
-_SENT = {"name": Name, "at": Expression, "gate": syntax.Gate, "stands_for": Name}
-_NEED = {"measure": Name, "compare": str, "above": Amount, "event": Phrase}
-_OUTCOME = {"times": Amount, "event": Phrase, "when": syntax.When}
-# Rules any of whose parts may be missing: which field a part is, its type says, and of two of one type their order.
-_FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, Any]]] = {
-    "drives": (syntax.Drives, _SENT),
-    "influences": (syntax.Influences, {**_SENT, "over": tuple, "cuts": Amount}),
-    "draws": (syntax.Draws, {"name": Name, "of": Numbers | syntax.Range | syntax.Points}),
-    "starts": (syntax.Starts, {"place": tuple, "facing": Amount}),
-    "ends": (syntax.Ends, _OUTCOME),
-    "succeeds": (syntax.Succeeds, _OUTCOME),
-    "opens": (syntax.Opens, {"name": Name, **_OUTCOME}),
-    **dict.fromkeys(("needs", "often", "until"), (syntax.Needs, _NEED)),
-    "avoids": (syntax.Avoids, _OUTCOME),
-    "keeps": (syntax.Keeps, {"when": syntax.When, "time": syntax.Deadline}),
-    "prefers": (syntax.Prefers, {"how": Name, "amount": Expression}),
-    "tally": (syntax.Tally, {"word": Name, "event": Phrase, "when": syntax.When, "value": Expression}),
-    "stop": (syntax.Stop, {**_OUTCOME, "tick": syntax.Tick}),
-    "rewards": (
-        syntax.Rewards,
-        {"amount": Expression, "on": Phrase, "each": syntax.Each, "when": syntax.When, "final": Name},
-    ),
-}
+
+
+@cache
+def _fields(form: type[Struct]) -> list[tuple[str, Any]]:
+    """The fields of a struct that a rule fills, each with its type: a tuple's without what is in it."""
+    hints = get_type_hints(form)
+    types = {name: tuple if "tuple" in str(hints[name]) else hints[name] for name in form.__struct_fields__}
+    return [(name, Phrase if of is Any else of) for name, of in types.items() if name != "span" and of is not bool]
 
 
 def build_line(tree: Tree[Token], source: Source, offset: int) -> syntax.Line | syntax.Stop:
-    """The line that stands at `offset` of `source`."""
     return cast(syntax.Line | syntax.Stop, Builder(source, offset).transform(tree))
 
 
 @v_args(meta=True)
 class Builder(Transformer_NonRecursive[Token, Any]):
-    """A method for each rule that no table has; it takes where the rule stands and what its parts became.
+    """A method for each rule that is no struct of `syntax` as it stands: of where it is and what its parts became.
 
     Names have become `Name` before; signs, units and numbers are still tokens.
     """
@@ -72,15 +51,12 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         self.offset = offset
 
     def __default__(self, data: str, children: list[Any], meta: Any) -> Any:
-        """A rule of the tables."""
-        if data in _FIELDS:
-            form, fields = _FIELDS[data]
-            parts: dict[Any, Iterator[Any]] = {of: iter(syntax.of_form(children, of)) for of in fields.values()}
-            found = {field: next(parts[of], None) for field, of in fields.items()}
-            return form(**found, span=self._span(meta))
-        form = _FORMS[data]
-        missing = len(form.__struct_fields__) - 1 - len(children)
-        return form(*children, *[None] * missing, self._span(meta))
+        """A rule that is a struct: each of its fields is the first part of its type that is left, if any is."""
+        form, found = _FORMS[data], dict[str, Any]()
+        for field, of in _fields(form):
+            place = next((place for place, part in enumerate(children) if isinstance(part, of)), None)
+            found[field] = None if place is None else children.pop(place)
+        return form(**found, span=self._span(meta))
 
     def _span(self, at: Any) -> Span:
         return Span(self.source, self.offset + at.start_pos, self.offset + at.end_pos)

@@ -1,22 +1,71 @@
-"""Why a line cannot be read: a common mistake, or else what the grammar expected."""
+"""Why a line cannot be read: a common mistake, of `mistakes.toml`, or else what the grammar expected."""
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 from typing import TYPE_CHECKING
 from unicodedata import normalize
 
 from mindrun.kinds.registry import arguments, kinds, named_arguments
 
 from mindlang.compiler.diagnostic import Diagnostic, a, did_you_mean, listed
-from mindlang.compiler.parse.mistakes import Mistake, common_mistakes
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import NOUNS, PARTS, SETTINGS, VERBS
+from mindlang.compiler.syntax import NOUNS, PARTS, SETTINGS, VERBS, WHOLES
 
 if TYPE_CHECKING:
     from lark import UnexpectedInput
 
     from mindlang.compiler.parse.shape import Start
+
+_PART = re.compile(r"\(\?&(\w+)\)")
+
+
+@dataclass(frozen=True, slots=True)
+class Mistake:
+    """A malformed line: the first pattern found explains it. `example` is one such line."""
+
+    code: str
+    pattern: str
+    message: str
+    hint: str
+    example: str
+
+
+@dataclass(frozen=True, slots=True)
+class CommonMistakes:
+    """Mistakes in `openings` of lines, in `lines` of a mind and of a .break file (`stops`).
+
+    `right` is a line as it should be for each word with which one begins, `foreign_words` what people write for one.
+    """
+
+    openings: tuple[Mistake, ...]
+    lines: tuple[Mistake, ...]
+    stops: tuple[Mistake, ...]
+    right: Mapping[str, str]
+    foreign_words: Mapping[str, str]
+
+
+@cache
+def common_mistakes() -> CommonMistakes:
+    """The common mistakes, read from `mistakes.toml` once."""
+    import tomllib
+
+    said = tomllib.loads(Path(__file__).with_name("mistakes.toml").read_text(encoding="utf-8"))
+    words = {"noun": NOUNS, "part": PARTS, "whole": WHOLES, "verb": VERBS, "setting": SETTINGS}
+    parts = said["parts"] | {name: "|".join(of) for name, of in words.items()}
+
+    def whole(pattern: str) -> str:
+        return _PART.sub(lambda found: whole(parts[found[1]]), pattern)
+
+    openings, lines, stops = (
+        tuple(Mistake(**row | {"pattern": whole(row["pattern"])}) for row in said[of])
+        for of in ("openings", "mistakes", "stops")
+    )
+    stops += tuple(each for each in lines if each.code != "two-facts")  # what a skill influences is part of one
+    return CommonMistakes(openings, lines, stops, said["lines"], said["foreign_words"])
+
 
 MAX_EXPLAINED_CHARACTERS = 400  # a longer line is no common mistake, and patterns would take their time over it
 

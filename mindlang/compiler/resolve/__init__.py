@@ -48,11 +48,10 @@ def resolve_mind(files: Sequence[File], findings: Findings) -> model.Mind | None
     says, hint = "Skills influence one another in a circle", "Influence flows one way, from the master down"
     refuse_circles("influence-cycle", influences, findings, says, f"{hint}: take one of these lines out.", ONWARDS)
     body = body_outside(names, findings) if (outside := is_outside(names)) else _body(names, findings)
-    root = files[0].source.folder
-    robot = RobotFacts(names, width, tick, root, body, actuators, known_sensors)
+    robot = RobotFacts(names, width, tick, files[0].source.folder, body, actuators, known_sensors)
     known_tasks = resolve_tasks(robot, findings)
-    check_outside(known_tasks, known_sensors, actuators, findings)
-    known_lessons = tuple(lessons(names, known_skills, influences, known_tasks, known_sensors, width, root, findings))
+    check_outside(known_tasks, robot, findings)
+    known_lessons = tuple(lessons(robot, known_skills, influences, known_tasks, findings))
     if body and not outside:
         check_drives(body, actuators, findings)
     head = _master(files[0], names, findings)
@@ -84,7 +83,6 @@ def _as_written(declared: Iterable[D], noun: str, names: Names) -> Iterator[D]:
 
 
 def _settings(files: Iterable[File], form: type[S]) -> list[S]:
-    """The settings of one word in some files."""
     return [setting for file in files for setting in of_form(file.settings, form)]
 
 

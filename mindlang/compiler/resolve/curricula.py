@@ -5,7 +5,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from heapq import heappop, heappush
 from itertools import pairwise
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from mindrun.graph.graph import Need
@@ -18,11 +17,12 @@ from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.families import said
 from mindlang.compiler.hierarchy import with_descendants
-from mindlang.compiler.names import Names
+from mindlang.compiler.resolve.expressions import Widths
 from mindlang.compiler.resolve.kinds import Scope, a_name, make_event, make_kind, once, overrides
 from mindlang.compiler.resolve.layouts import HARD, OF, hard_layouts
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
+from mindlang.compiler.resolve.worlds import RobotFacts
 from mindlang.compiler.syntax import Amount, Argument, Name, Needs, Phrase, Teaches, of_form
 
 if TYPE_CHECKING:
@@ -40,24 +40,19 @@ USING = "using"  # a kind of learner other than the curriculum's
 
 
 def lessons(
-    names: Names,
-    skills: tuple[model.Skill, ...],
+    robot: RobotFacts,
+    skills: Sequence[model.Skill],
     influences: DiGraph,
-    tasks: tuple[model.Task, ...],
-    sensors: Sequence[model.Part[Any]],
-    widths: Mapping[str, int],
-    root: Path,
+    tasks: Sequence[model.Task],
     findings: Findings,
 ) -> Iterator[model.Lesson]:
     """Every lesson of every curriculum that is well said; those that others wait for come first."""
     known = {skill.name: skill for skill in skills}, influences, {task.name: task for task in tasks}
-    context = _LessonContext(
-        names, *known, {each.name: type(each.kind).__name__ for each in sensors}, widths, root, findings
-    )
-    for name, declaration in names.declarations("curriculum"):
-        refuse_facts(declaration, ("teaches",), findings)
+    context = _LessonContext(robot, *known, findings)
+    for name, declaration in robot.names.declarations("curriculum"):
+        refuse_facts(declaration, findings)
         phrase = declaration.header.phrase
-        learner = make_kind("curriculum", phrase, Scope(names, None), findings) if phrase else None
+        learner = make_kind("curriculum", phrase, Scope(robot.names, None), findings) if phrase else None
         taught = of_form(declaration.facts, Teaches)
         heirs = {fact.skill.text: origin.text for fact in taught if (origin := _origin(fact.arguments))}
         said = (context.lesson(name, fact, learner, heirs) for fact in taught)
@@ -69,13 +64,10 @@ def lessons(
 class _LessonContext:
     """The parts of a mind that lessons are checked against."""
 
-    names: Names
+    robot: RobotFacts
     skills: Mapping[str, model.Skill]
     influences: DiGraph
     tasks: Mapping[str, model.Task]
-    kinds: Mapping[str, str]
-    widths: Mapping[str, int]
-    root: Path
     findings: Findings
 
     def lesson(self, curriculum: str, fact: Teaches, learner: Any, heirs: Mapping[str, str]) -> model.Lesson | None:
@@ -87,8 +79,8 @@ class _LessonContext:
         before = len(self.findings.diagnostics)
         master, origin = fact.master or fact.skill, _origin(fact.arguments)
         skills = [fact.skill, *([fact.master] if fact.master else []), *([origin] if origin else [])]
-        found = [self.names.find(fact.task, ("task",), self.findings)]
-        found += [self.names.find(name, ("skill",), self.findings) for name in skills]
+        found = [self.robot.names.find(fact.task, ("task",), self.findings)]
+        found += [self.robot.names.find(name, ("skill",), self.findings) for name in skills]
         generations = convert(fact.generations, GENERATIONS, self.findings)
         switches = self._switches(fact.arguments)
         learner = self._learner(fact, learner)
@@ -98,7 +90,7 @@ class _LessonContext:
             self._check_reached(fact, master)
             if origin:
                 self._check_origin(origin, self.skills[fact.skill.text], heirs)
-        hard = hard_layouts(fact.arguments, self.root, self.findings)
+        hard = hard_layouts(fact.arguments, self.robot.root, self.findings)
         needs = self._needs(fact)
         until = self._need(fact.until, fact.task.text, "until") if fact.until else None
         if learner is None or generations is None or len(self.findings.diagnostics) > before:
@@ -175,7 +167,7 @@ class _LessonContext:
             if not (kind := a_name(using, hint, self.findings)):
                 return None
             phrase, said_by = Phrase(kind, (), kind.span), kind.text
-            learner = make_kind("curriculum", phrase, Scope(self.names, None), self.findings)
+            learner = make_kind("curriculum", phrase, Scope(self.robot.names, None), self.findings)
         if learner is None:
             return None
         others = {*SWITCHES, USING, HARD, *([OF] if any(each.key.text == HARD for each in fact.arguments) else [])}
@@ -227,7 +219,7 @@ class _LessonContext:
             message = f"{argument.key.text} is no part of an event, and stands elsewhere in a lesson."
             self.findings.error("order", argument.span, message, f"Write {said(argument)} {place}.")
             return None
-        event = make_event(written, Scope(self.names, None), self.findings)
+        event = make_event(written, Scope(self.robot.names, None), self.findings)
         times = convert(above, OFTEN, self.findings)
         if event and self._lacks(task, lambda its: event in its.events):
             hint = f"Add a line to it: counts {said(written)}."
@@ -284,12 +276,14 @@ class _LessonContext:
         """Why weights of one skill do not fit another; empty where they do."""
         if not other.function.learns:
             return f"{other.name} learns nothing"
+        widths = self.robot.widths
+        kinds = {each.name: type(each.kind).__name__ for each in self.robot.sensors}
         found: dict[str, str] = {}
         for verb, mine, others in (
-            ("reads", *([f"{name}:{self.widths.get(name, 1)}" for name in skill.reads] for skill in (learner, other))),
+            ("reads", *([f"{name}:{widths.get(name, 1)}" for name in skill.reads] for skill in (learner, other))),
             ("sends to", *(_sends(skill) for skill in (learner, other))),
         ):
-            stands = counterparts(mine, others, heirs, self.kinds)
+            stands = counterparts(mine, others, heirs, kinds)
             if stands is None:
                 own, its = _words(mine, others), _words(others, mine)
                 where = f"{learner.name} {verb} {own} where {other.name} {verb} {its}"
@@ -298,7 +292,7 @@ class _LessonContext:
         commands = [edge.target for edge in learner.edges if edge.at is None and edge.to == "actuator"]
         if driven := [name for name in commands if name not in found]:
             return f"{learner.name} drives {listed(driven, 'and')}, too, and a command of 0 is one"
-        return "" if _holds(learner, other, self.widths) else "their functions differ"
+        return "" if _holds(learner, other, widths) else "their functions differ"
 
 
 def _origin(written: Sequence[Argument]) -> Name | None:
@@ -307,7 +301,7 @@ def _origin(written: Sequence[Argument]) -> Name | None:
     return next((value for value in values if isinstance(value, Name) and value.text[0].isupper()), None)
 
 
-def _holds(learner: model.Skill, other: model.Skill, widths: Mapping[str, int]) -> bool:
+def _holds(learner: model.Skill, other: model.Skill, widths: Widths) -> bool:
     """True if the learner computes the other's function once some of its weights are 0: no layer of it is smaller."""
     (own, its), (large, small) = zip(*(_sized(skill, widths) for skill in (learner, other)), strict=True)
     if own == its:
@@ -316,7 +310,7 @@ def _holds(learner: model.Skill, other: model.Skill, widths: Mapping[str, int]) 
     return type(own) is type(its) and 0 < len(large) == len(small) and holds
 
 
-def _sized(skill: model.Skill, widths: Mapping[str, int]) -> "tuple[Function, Layers]":
+def _sized(skill: model.Skill, widths: Widths) -> "tuple[Function, Layers]":
     """A skill's function with every argument said, and the shapes of its weight matrices."""
     size = sum(widths.get(name, 1) for name in skill.reads), len(_sends(skill))
     return skill.function.explicit(*size), skill.function.matrix_shapes(*size)

@@ -13,49 +13,33 @@ from mindrun.numbers.intervals import Interval
 from mindrun.numbers.quantity import COORDINATE, NUMBER, fits
 from msgspec.structs import replace
 
-from mindlang.compiler.diagnostic import Findings, Label, a
-from mindlang.compiler.names import SHARED, Names
+from mindlang.compiler import syntax
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.names import SHARED, Names, refuse_declared
 from mindlang.compiler.parse.build import as_expression
 from mindlang.compiler.resolve.expressions import Visible, resolve_expression
 from mindlang.compiler.resolve.parts import said_once
 from mindlang.compiler.resolve.quantities import convert, value_list
-from mindlang.compiler.syntax import (
-    Amount,
-    Argument,
-    Declaration,
-    Draws,
-    Either,
-    Expression,
-    Name,
-    Numbers,
-    Phrase,
-    Points,
-    Range,
-    Sums,
-    of_form,
-)
 
 PLACE_NUMBERS = 2
 
 
-def resolve_draws(declaration: Declaration, names: Names, findings: Findings) -> tuple[Draw, ...]:
+def resolve_draws(declaration: syntax.Declaration, names: Names, findings: Findings) -> tuple[Draw, ...]:
     """The numbers that a task or a scene draws, each once; the lines that are wrong are reported and left out."""
     found = []
-    facts = of_form(declaration.facts, Draws)
+    facts = syntax.of_form(declaration.facts, syntax.Draws)
     for fact in said_once(facts, lambda fact: f"The task already draws {fact.name.text}.", findings):
         name = fact.name
         if noun := names.noun_of(name.text, SHARED["draw"]):
-            first = Label(names.place_of(noun, name.text), "first declared here")
-            message, hint = f"There is already {a(noun)} called {name.text}.", "Give one of the two another name."
-            findings.error("duplicate-name", name.span, message, hint, first)
+            refuse_declared(names, noun, name, findings)
         elif draw := _draw(fact, findings):
             found.append(draw)
     return tuple(found)
 
 
-def _draw(fact: Draws, findings: Findings) -> Draw | None:
+def _draw(fact: syntax.Draws, findings: Findings) -> Draw | None:
     match fact.of:
-        case Range(by=by) as several:
+        case syntax.Range(by=by) as several:
             if by:
                 hint = "Write each of its numbers, with spaces between, or leave by out."
                 findings.error("no-range", several.span, "A range that is drawn from has no steps.", hint)
@@ -79,28 +63,30 @@ def _draw(fact: Draws, findings: Findings) -> Draw | None:
 
 
 def with_drawn(
-    phrase: Phrase, draws: Mapping[str, Draw], unread: Set[str], findings: Findings
-) -> tuple[Phrase | None, tuple[Program, ...], int]:
+    phrase: syntax.Phrase, draws: Mapping[str, Draw], unread: Set[str], findings: Findings
+) -> tuple[syntax.Phrase | None, tuple[Program, ...], int]:
     """The phrase of a thing with all that may be drawn of it, then its x and its y, then which number counts it.
 
     It is at every place that may be drawn, of a range at the ends, and there are as many as there may be. It is None
     after reporting a place that is none. The place is empty and the number 0 where they are not drawn.
     """
-    changed, many = dict[str, list[Argument]](), 0
+    changed, many = dict[str, list[syntax.Argument]](), 0
     by: tuple[Program, ...] = ()
     for argument in phrase.arguments:
         match argument.key.text, argument.value:
-            case ("at", Numbers() | Sums()) | ("along", Points(by=None)) if _is_computed(argument.value, draws):
+            case ("at", syntax.Numbers() | syntax.Sums()) | ("along", syntax.Points(by=None)) if _is_computed(
+                argument.value, draws
+            ):
                 by = _coordinates(argument.value, draws, unread, findings)
                 if not by:
                     return None, (), 0
                 changed[argument.key.text] = _at_each(argument, ends_of(by, [*draws.values()]))
-            case "count", Name(text) if text in draws:
+            case "count", syntax.Name(text) if text in draws:
                 if not _check_count(argument.value, draws[text], findings):
                     return None, (), 0
                 many = [*draws].index(text) + 1
-                most = Amount(draws[text].interval[1], "", argument.value.span)
-                changed["count"] = [replace(argument, value=Numbers((most,), argument.value.span))]
+                most = syntax.Amount(draws[text].interval[1], "", argument.value.span)
+                changed["count"] = [replace(argument, value=syntax.Numbers((most,), argument.value.span))]
     others = ("or",) if "along" in changed else ("or", "count")
     if by and any(each.key.text in others for each in phrase.arguments):
         hint = "Write a thing for each of them, or leave the drawn number out."
@@ -119,21 +105,20 @@ def may_leave(kind: ThingKind, by: Sequence[Program], draws: Sequence[Draw], sce
     return not all(scene.has_room(corner, kind.largest / 2) for corner in corners)
 
 
-def _places(value: Any) -> tuple[Numbers | Sums, ...]:
-    """The places of a value, as written."""
-    return value.points if isinstance(value, Points) else (value,)
+def _places(value: Any) -> tuple[syntax.Numbers | syntax.Sums, ...]:
+    return value.points if isinstance(value, syntax.Points) else (value,)
 
 
 def _is_computed(value: Any, draws: Mapping[str, Draw]) -> bool:
     """True if a place is more than two numbers that are said; one of other than two is reported where all are."""
-    return any(isinstance(at, Sums) or any(each.name in draws for each in at.amounts) for at in _places(value))
+    return any(isinstance(at, syntax.Sums) or any(each.name in draws for each in at.amounts) for at in _places(value))
 
 
 def _coordinates(value: Any, draws: Mapping[str, Draw], unread: Set[str], findings: Findings) -> tuple[Program, ...]:
     """The programs of x and y; none after reporting what is wrong."""
-    written = list[Expression]()
+    written = list[syntax.Expression]()
     for at in _places(value):
-        both = at.sums if isinstance(at, Sums) else [as_expression(each) for each in at.amounts]
+        both = at.sums if isinstance(at, syntax.Sums) else [as_expression(each) for each in at.amounts]
         written += both
         if len(both) != PLACE_NUMBERS:
             hint = (
@@ -153,7 +138,7 @@ def _coordinates(value: Any, draws: Mapping[str, Draw], unread: Set[str], findin
     return tuple(found) if len(found) == len(written) else ()
 
 
-def _check_coordinate(written: Expression, program: Program, draws: Sequence[Draw], findings: Findings) -> bool:
+def _check_coordinate(written: syntax.Expression, program: Program, draws: Sequence[Draw], findings: Findings) -> bool:
     """True if a program is a coordinate whatever is drawn; the first case in which it is none is reported."""
     for known, found in intervals_of(program, draws):
         if fits(COORDINATE, found):
@@ -172,7 +157,7 @@ def _in_words(of: Interval) -> str:
     return f"{of[0]:g}" if of[0] == of[1] else f"{of[0]:g} to {of[1]:g}"
 
 
-def _check_count(name: Name, draw: Draw, findings: Findings) -> bool:
+def _check_count(name: syntax.Name, draw: Draw, findings: Findings) -> bool:
     """True if a number that is drawn says how many things there are; one that does not is reported."""
     if draw.is_count and draw.interval[1] >= 1:
         return True
@@ -181,15 +166,15 @@ def _check_count(name: Name, draw: Draw, findings: Findings) -> bool:
     return False
 
 
-def _at_each(argument: Argument, places: Sequence[Sequence[float]]) -> list[Argument]:
+def _at_each(argument: syntax.Argument, places: Sequence[Sequence[float]]) -> list[syntax.Argument]:
     """The argument of the first place or way, and that of all others, if there are any."""
     span = argument.span
 
-    def said(numbers: Sequence[float]) -> Numbers | Points:
+    def said(numbers: Sequence[float]) -> syntax.Numbers | syntax.Points:
         pairs = zip(numbers[::2], numbers[1::2], strict=True)
-        points = [Numbers(tuple(Amount(x, "", span) for x in pair), span) for pair in pairs]
-        return points[0] if len(points) == 1 else Points(tuple(points), None, span)
+        points = [syntax.Numbers(tuple(syntax.Amount(x, "", span) for x in pair), span) for pair in pairs]
+        return points[0] if len(points) == 1 else syntax.Points(tuple(points), None, span)
 
     first, *others = map(said, places)
-    instead = [Argument(Name("or", span), Either(tuple(others), span), span)] if others else []
+    instead = [syntax.Argument(syntax.Name("or", span), syntax.Either(tuple(others), span), span)] if others else []
     return [replace(argument, value=first), *instead]

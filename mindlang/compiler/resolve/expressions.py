@@ -20,6 +20,7 @@ TRUTH = {"true": 1, "yes": 1, "false": 0, "no": 0}
 PLAIN = Quantity("a plain number", {"": 1.0, "%": 0.01})
 
 T = TypeVar("T")
+Widths = Mapping[str, int]  # how many readings each sensor and memory has
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,10 +31,10 @@ class Visible:
     be read, `commands` the actuators whose commands can be seen, `draws` the numbers that a task draws.
     """
 
-    readings: Mapping[str, int]
+    readings: Widths
     measures: Scope | None = None
     each: str | None = None
-    elsewhere: Mapping[str, int] | None = None
+    elsewhere: Widths | None = None
     unread: Set[str] = frozenset()
     commands: Set[str] = frozenset()
     draws: Mapping[str, Draw] = field(default_factory=dict)

@@ -12,6 +12,7 @@ from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, a
 from mindlang.compiler.model import Part
 from mindlang.compiler.names import Names
+from mindlang.compiler.resolve.worlds import RobotFacts
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Counts, Phrase, Starts, expressions_in, of_form
 
@@ -39,9 +40,7 @@ def body_outside(names: Names, findings: Findings) -> Part[BodyKind]:
     return Part("", Disc(), tasks[0].header.span)
 
 
-def check_outside(
-    tasks: Sequence[model.Task], sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]], findings: Findings
-) -> None:
+def check_outside(tasks: Sequence[model.Task], robot: RobotFacts, findings: Findings) -> None:
     """Report what means nothing in the worlds of the tasks: an environment's in others, others' in an environment."""
     known = [task for task in tasks if task.scene is not None]
     outside = [task for task in known if task.scene.environment]
@@ -49,7 +48,7 @@ def check_outside(
         for task in known:
             _check_judged(task, findings)
         if not outside:
-            for part in (part for part in (*sensors, *actuators) if part.kind.is_outside and known):
+            for part in (part for part in robot.parts if part.kind.is_outside and known):
                 message = f"{_kind(part)} belongs to {ENVIRONMENT}, and no task is in one."
                 hint = "Write task Land in gymnasium LunarLanderContinuous-v3."
                 findings.error("foreign-part", part.span, message, hint)
@@ -58,25 +57,23 @@ def check_outside(
             message = f"{task.name} is in no environment, as {outside[0].name} is."
             hint = "The tasks of a mind are all in gymnasium, or none is: write this one in a file of its own."
             findings.error("mixed-scenes", task.declaration.header.span, message, hint)
-        for span, message, hint in _foreign(outside, sensors, actuators):
+        for span, message, hint in _foreign(outside, robot):
             findings.error("foreign-part", span, message, hint)
         several = {task.scene.environment: task for task in reversed(outside)}
         for name, task in several.items():
-            _check_environment(task, sensors, actuators, f"environment {name}" * (len(several) > 1), findings)
+            _check_environment(task, robot, f"environment {name}" * (len(several) > 1), findings)
 
 
 def _kind(part: Part[Any]) -> str:
     return a(kind_names()[type(part.kind)]).capitalize()
 
 
-def _foreign(
-    tasks: Sequence[model.Task], sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]]
-) -> Iterator[Refused]:
+def _foreign(tasks: Sequence[model.Task], robot: RobotFacts) -> Iterator[Refused]:
     """The parts that need a body or a world of ours, and the lines of tasks that do: things, and where it starts."""
-    for sensor in (each for each in sensors if isinstance(each.kind, Physical) and not each.kind.is_outside):
+    for sensor in (each for each in robot.sensors if isinstance(each.kind, Physical) and not each.kind.is_outside):
         hint = f"Write which of its numbers it is: sensor {sensor.name} is observation 0 range -1 to 1."
         yield sensor.span, f"{_kind(sensor)} measures nothing in {ENVIRONMENT}.", hint
-    for actuator in (each for each in actuators if each.kind.moves_body or each.kind.can_hold):
+    for actuator in (each for each in robot.actuators if each.kind.moves_body or each.kind.can_hold):
         hint = f"Write what it takes: actuator {actuator.name} is action 0 neutral 0.5, or choice 0."
         yield actuator.span, f"{_kind(actuator)} does nothing in {ENVIRONMENT}.", hint
     for task in tasks:
@@ -110,9 +107,7 @@ def _judged(task: model.Task) -> Iterator[tuple[Any, Span]]:
     yield from ((term.operand, term.span) for term in measured)
 
 
-def _check_environment(
-    task: model.Task, sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]], which: str, findings: Findings
-) -> None:
+def _check_environment(task: model.Task, robot: RobotFacts, which: str, findings: Findings) -> None:
     """Report what does not fit the spaces of an environment; nothing where it cannot be asked on this machine.
 
     `which` says which one it is, where there are others. One that has its module before it is not asked: that would run
@@ -136,8 +131,10 @@ def _check_environment(
         return  # what it needs is not installed here: a run says so
     from mindrun.sim.outside.wiring import misfits
 
-    spans = {part.name: part.span for part in (*sensors, *actuators)} | {"": header.span}
-    ours = ({part.name: slot for part in parts if (slot := part.kind.slot)} for parts in (sensors, actuators))
+    spans = {part.name: part.span for part in robot.parts} | {"": header.span}
+    ours = (
+        {part.name: slot for part in parts if (slot := part.kind.slot)} for parts in (robot.sensors, robot.actuators)
+    )
     for found in misfits(spaces, *ours):
         message = found.message.replace("environment", which or "environment", 1)
         findings.error(found.code, spans[found.name], message, found.hint)

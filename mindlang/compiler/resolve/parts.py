@@ -20,9 +20,9 @@ from mindlang.compiler.format import spaced
 from mindlang.compiler.hierarchy import circles, reverse_topological_order
 from mindlang.compiler.model import Part, Promise, source_graph
 from mindlang.compiler.names import Names
-from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
+from mindlang.compiler.resolve.expressions import Visible, Widths, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
-from mindlang.compiler.syntax import Declaration, Fact, Header, Maintains, Name, of_form, verb_of
+from mindlang.compiler.syntax import VERBS_OF, Declaration, Fact, Header, Maintains, Name, of_form, verb_of
 
 MOST_READINGS = 20_000
 ONE_OF_TWO = "Leave one of the two lines out."
@@ -37,19 +37,20 @@ def resolve_parts(noun: str, names: Names, findings: Findings) -> Parts:
     things = names.things()
     found = []
     for name, declaration in names.declarations(noun):
-        refuse_facts(declaration, (), findings)
+        refuse_facts(declaration, findings)
         phrase = None if declaration.header.at else declaration.header.phrase
         if phrase and (kind := make_kind(noun, phrase, Scope(names, things, whole=declaration.whole), findings)):
             found.append(Part(name, kind, declaration.header.name.span))
     return tuple(found)
 
 
-def refuse_facts(declaration: Declaration, verbs: Sequence[str], findings: Findings) -> None:
-    """Report the facts of a declaration of this noun that begin with other verbs than these.
+def refuse_facts(declaration: Declaration, findings: Findings) -> None:
+    """Report the facts of a declaration that do not stand below its noun.
 
     A line above them that could not be read may have been the header to which they belong.
     """
     noun = declaration.header.noun.text
+    verbs = VERBS_OF.get(noun, ())
     for fact in declaration.facts if declaration.whole else ():
         if (verb := verb_of(fact)) not in verbs:
             hint = f"Below {noun} {declaration.header.name.text} can stand {listed(verbs)}." if verbs else ONE_LINE
@@ -72,9 +73,7 @@ def said_once(
     return [same[0] for same in by_message.values()]
 
 
-def promises(
-    declaration: Declaration, names: Names, widths: Mapping[str, int], findings: Findings
-) -> tuple[Promise, ...]:
+def promises(declaration: Declaration, names: Names, widths: Widths, findings: Findings) -> tuple[Promise, ...]:
     """The promises of a skill in the order of their lines; they need not be of what it reads itself."""
     made_of, where = "numbers, sensors and memories", "What a skill promises"
     visible = Visible(widths, unread=names.unread, made_of=made_of, where=where)

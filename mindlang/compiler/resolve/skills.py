@@ -1,4 +1,7 @@
-"""Skills: what they read, what they drive and influence, and that their function fits."""
+"""Skills: what they read, what they drive and influence, and that their function fits.
+
+Those that are like others have the same function and weights, and read, drive or influence something else.
+"""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -7,25 +10,37 @@ from mindrun.graph.graph import Receiver
 from mindrun.kinds.functions.function import Function
 from mindrun.kinds.functions.procedure import is_inside
 from mindrun.numbers.quantity import RATIO
+from msgspec.structs import replace
 from networkx import DiGraph
 
 from mindlang.compiler import model, syntax
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
-from mindlang.compiler.names import Names
-from mindlang.compiler.references import DRIVABLE_NOUNS
-from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
+from mindlang.compiler.names import DRIVABLE_NOUNS, NAMED_NOUNS, Names
+from mindlang.compiler.resolve.expressions import Visible, Widths, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
-from mindlang.compiler.resolve.likeness import alike, unsaid
 from mindlang.compiler.resolve.parts import ONE_OF_TWO, promises, refuse_facts, said_once
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.syntax import Chooses, Declaration, Drives, Influences, Reads, Sends, Stays, Uses, of_form
+from mindlang.compiler.syntax import (
+    Chooses,
+    Declaration,
+    Drives,
+    Influences,
+    Promise,
+    Reads,
+    Sends,
+    Stays,
+    Term,
+    Uses,
+    of_form,
+    rebuilt,
+    verb_of,
+)
 
-FACTS = ("reads", "drives", "influences", "chooses", "stays", "uses", "requires", "maintains", "achieves")
 STATES: Mapping[type[Stays] | type[Chooses], tuple[str, str]] = {Stays: ("stay", "frozen"), Chooses: ("choose", "one")}
 
 
-def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple[model.Skill, ...]:
+def skills(names: Names, widths: Widths, findings: Findings) -> tuple[model.Skill, ...]:
     """Every skill, without the lines that are reported; one that is not well said has no function."""
     declared = dict(names.declarations("skill"))
     known = {
@@ -48,10 +63,8 @@ def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple
     return tuple(known.get(name) or unsaid(each) for name, each in declared.items())
 
 
-def _skill(
-    name: str, declaration: Declaration, names: Names, widths: Mapping[str, int], findings: Findings
-) -> model.Skill:
-    refuse_facts(declaration, FACTS, findings)
+def _skill(name: str, declaration: Declaration, names: Names, widths: Widths, findings: Findings) -> model.Skill:
+    refuse_facts(declaration, findings)
     phrase = declaration.header.phrase
     function: Any = make_kind("skill", phrase, Scope(names, None), findings) if phrase else None
     reads = _reads(declaration, names, findings)
@@ -94,15 +107,12 @@ def _repeated(fact: Reads | Drives | Influences) -> str:
 
 def _edges(declaration: Declaration, names: Names, visible: Visible, findings: Findings) -> tuple[model.Edge, ...]:
     edges: list[model.Edge] = []
-    to: Receiver | None
     over: tuple[str, ...]
     for fact in (fact for fact in declaration.facts if isinstance(fact, Drives | Influences)):
         cuts, over = None, ()
         _refuse_for(declaration, fact, findings)
-        if isinstance(fact, Drives):
-            to = names.find(fact.name, DRIVABLE_NOUNS, findings)
-        else:
-            to = names.find(fact.name, ("skill",), findings)
+        to: Any = names.find(fact.name, NAMED_NOUNS[type(fact)]["name"], findings)
+        if isinstance(fact, Influences):
             cuts = convert(fact.cuts, RATIO, findings) if fact.cuts else None
             over = _over(fact, names, findings)
         at = resolve_expressions(fact.at, visible, findings)
@@ -181,3 +191,99 @@ def _check_works(declaration: Declaration, function: Function, edges: Sequence[m
     if function.learns and not of_form(declaration.facts, Reads):
         hint = "Add reads and a sensor, or make it a rule with at on every line."
         findings.error("no-inputs", name.span, f"{name.text} reads nothing, so it has nothing to learn from.", hint)
+
+
+def unsaid(declaration: Declaration) -> model.Skill:
+    """A skill that is not well said, which has no function."""
+    function: Any = None
+    return model.Skill(declaration.header.name.text, function, (), (), False, declaration)
+
+
+def alike(own: Declaration, other: model.Skill | None, names: Names, widths: Widths, findings: Findings) -> model.Skill:
+    """A skill that is like another, None where there is no such one, with something else in the place of its names."""
+    name, like = own.header.name.text, own.header.like
+    if other is None and like:
+        names.find(like, ("skill",), findings)
+    if other is None or not other.function or not like:
+        return unsaid(own)
+    if not other.function.learns:
+        message = f"{other.name} learns nothing, so it has no weights that {name} could share."
+        hint = f"Say what {name} is, and repeat the lines of {other.name}."
+        findings.error("like-no-learner", like.span, message, hint)
+        return unsaid(own)
+    for more in (fact for fact in own.facts if not isinstance(fact, Reads | Sends | Promise) or _says_more(fact)):
+        message = f"{name} is like {other.name}, so it only says what it reads, drives or influences in place of that."
+        hint = f"Take this line out, or say it of {other.name}: it holds for both."
+        findings.error("like-says-more", more.span, message, hint)
+    read, driven, influenced = (
+        _instead(own, form, other, widths, names, findings) for form in (Reads, Drives, Influences)
+    )
+    reads = tuple(read.get(each, (each,))[0] for each in other.reads)
+    sent = driven | influenced
+    edges = tuple(_edge(edge, sent.get(edge.target, (edge.target, edge.to)), read) for edge in other.edges)
+    become = {Reads: reads, Sends: tuple(edge.target for edge in edges)}
+    for form, names_ in become.items():
+        lines: list[Any] = of_form(own.facts, form)
+        if twice := next((fact for fact in lines if names_.count(fact.name.text) > 1), None):
+            message = f"{name} would {verb_of(twice).removesuffix('s')} {twice.name.text} twice."
+            findings.error("repeated-input", twice.span, message, "Write something else in this line.")
+    promised = promises(own, names, widths, findings)
+    return model.Skill(name, other.function, reads, edges, False, own, other.owner, other.chooses, promised)
+
+
+def _says_more(fact: Reads | Sends | Promise) -> bool:
+    """True if a line says which value it sends, when, or over what."""
+    return isinstance(fact, Sends) and bool(
+        fact.at or fact.gate or (isinstance(fact, Influences) and (fact.cuts or fact.over))
+    )
+
+
+def _edge(edge: model.Edge, sent: tuple[str, Receiver], read: Mapping[str, tuple[str, str]]) -> model.Edge:
+    """An edge to where it is sent instead, with what is read instead in its expressions."""
+
+    def reading(node: Any) -> Any:
+        is_read = isinstance(node, Term) and node.word == "reading" and node.operand in read
+        return replace(node, operand=read[node.operand][0]) if is_read else node
+
+    target, to = sent
+    return replace(edge, to=to, target=target, at=rebuilt(edge.at, reading), gate=rebuilt(edge.gate, reading))
+
+
+def _instead(
+    own: Declaration, form: type[Any], other: model.Skill, widths: Widths, names: Names, findings: Findings
+) -> dict[str, tuple[str, Any]]:
+    """Name and noun of what stands for something that the other skill reads or sends to, by the name of that."""
+    found = ((fact, names.find(fact.name, NAMED_NOUNS[form]["name"], findings)) for fact in of_form(own.facts, form))
+    nouns = {fact: noun for fact, noun in found if noun and not _says_more(fact)}
+    instead = {fact: replaced for fact in nouns if (replaced := _replaced(fact, other, widths, names, findings))}
+    said_once(instead, lambda fact: f"Something stands for {instead[fact]} already.", findings, ONE_OF_TWO)
+    return {replaced: (fact.name.text, nouns[fact]) for fact, replaced in instead.items()}
+
+
+def _replaced(fact: Reads | Sends, other: model.Skill, widths: Widths, names: Names, findings: Findings) -> str:
+    """What a line replaces of the other skill, an input by one of its width; empty after reporting an error."""
+    name, verb = fact.name.text, verb_of(fact)
+    sent = tuple(edge.target for edge in other.edges if edge.to in NAMED_NOUNS[type(fact)]["name"])
+    known = other.reads if isinstance(fact, Reads) else sent
+    has = f"{other.name} {verb} {listed(known, 'and') if known else 'nothing'}."
+    if fact.stands_for is None:
+        message = f"It is not said what {name} stands for."
+        hint = f"Write {verb} {name} for {'INPUT' if isinstance(fact, Reads) else 'NAME'}: {has}"
+        findings.error("stands-for-nothing", fact.span, message, hint)
+        return ""
+    replaced = fact.stands_for.text
+    if replaced not in known:
+        if replaced not in names.unread and other.declaration.whole:
+            message = f"{other.name} does not {verb.removesuffix('s')} {replaced}."
+            findings.error("no-such-input", fact.stands_for.span, message, has)
+        return ""
+    own, width = (widths.get(each, 1) if isinstance(fact, Reads) else 1 for each in (name, replaced))
+    if own != width:
+        message = f"{name} has {_readings(own)}, {replaced} has {_readings(width)}."
+        hint = f"The weights of {other.name} fit a sensor with {_readings(width)} in its place."
+        findings.error("other-width", fact.name.span, message, hint)
+    return replaced if own == width else ""
+
+
+def _readings(width: int) -> str:
+    return "one reading" if width == 1 else f"{width} readings"

@@ -20,16 +20,12 @@ from mindlang.compiler.syntax import Counts, Declaration, Ends, Lasts, Name, Ope
 
 LASTS = replace(TICKS, low=1.0, high=MAX_RUN_TICKS)
 
-SCENE_FACTS = ("contains", "starts", "draws", "varies", "fails")  # what the world is, not what is to be done in it
-GOAL_FACTS = ("wants", "avoids", "keeps", "prefers")
-TASK_FACTS = (*SCENE_FACTS, "lasts", "ends", "succeeds", "opens", "rewards", "counts", *GOAL_FACTS)
-
 
 def resolve_tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
     """Every task, without the lines that are reported; one that several tasks have is reported once."""
     for _, scene in robot.names.declarations("scene"):
         with findings.each_once():
-            refuse_facts(scene, SCENE_FACTS, findings)
+            refuse_facts(scene, findings)
             resolve_world(scene, robot, findings)
     found = []
     for _, declaration in robot.names.declarations("task"):
@@ -39,7 +35,7 @@ def resolve_tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ..
 
 
 def _task(declaration: Declaration, robot: RobotFacts, findings: Findings) -> model.Task:
-    refuse_facts(declaration, TASK_FACTS, findings)
+    refuse_facts(declaration, findings)
     world = resolve_world(declaration, robot, findings)
     commands = frozenset(robot.names.of("actuator"))
     visible = Visible(robot.widths, world.scope, unread=robot.names.unread, commands=commands, draws=world.drawn)

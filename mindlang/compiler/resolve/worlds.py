@@ -20,7 +20,7 @@ from mindlang.compiler.diagnostic import Findings, Label, did_you_mean, listed
 from mindlang.compiler.model import Part, Thing
 from mindlang.compiler.names import Names, declared_things
 from mindlang.compiler.resolve.draws import may_leave, resolve_draws, with_drawn
-from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
+from mindlang.compiler.resolve.expressions import Visible, Widths, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.maps import map_start, with_places
 from mindlang.compiler.resolve.parts import said_once
@@ -36,12 +36,17 @@ class RobotFacts:
     """The parts of a mind that its tasks are checked against."""
 
     names: Names
-    widths: Mapping[str, int]
+    widths: Widths
     tick: float
     root: Path
     body: Part[Any] | None
     actuators: tuple[Part[Any], ...]
     sensors: tuple[Part[Any], ...]
+
+    @property
+    def parts(self) -> tuple[Part[Any], ...]:
+        """The sensors and the actuators."""
+        return (*self.sensors, *self.actuators)
 
     @property
     def body_kind(self) -> BodyKind | None:

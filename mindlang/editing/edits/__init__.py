@@ -1,12 +1,13 @@
-"""The edits of a hierarchy, one a file: a function of a project that says what to splice.
+"""The edits of a mind by subject: each public function of a module here, which takes a project and says what to splice.
 
 What the signatures say of the command line is read from them here.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from importlib import import_module
-from inspect import Parameter, getdoc, signature
+from inspect import Parameter, getdoc, isfunction, signature
 from pkgutil import iter_modules
 from typing import Any, get_args, get_origin, get_type_hints
 
@@ -35,14 +36,21 @@ class Edit:
     example: str
 
 
+@cache
+def _functions() -> dict[str, Function]:
+    """The functions of all edits by their names."""
+    modules = [import_module(f"{__name__}.{each.name}") for each in iter_modules(__path__)]
+    own = (each for module in modules for each in vars(module).values() if isfunction(each))
+    return {each.__name__: each for each in own if each.__module__.startswith(__name__) and each.__name__[0] != "_"}
+
+
 def names() -> list[str]:
-    """The names of all edits."""
-    return sorted(module.name for module in iter_modules(__path__))
+    return sorted(_functions())
 
 
 def edit(name: str) -> Edit:
-    """The edit of that name: the function `NAME` in the module `mindlang.editing.edits.NAME`."""
-    function = getattr(import_module(f"{__name__}.{name}"), name)
+    """The edit of that name."""
+    function = _functions()[name]
     hints = get_type_hints(function, include_extras=True)
     text, _, example = (getdoc(function) or "").partition("Example: ")
     arguments, options = list[tuple[str, bool]](), list[EditOption]()

@@ -9,9 +9,8 @@ from mindrun.terminal.command_line import command_line
 from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Label, a, listed
 from mindlang.compiler.families import is_of_family, letter_in, numbered
-from mindlang.compiler.references import VALUE_NOUNS, Mention, introductions
-from mindlang.compiler.source import Span
-from mindlang.compiler.splice import Splice
+from mindlang.compiler.names import VALUE_NOUNS, Mention, introductions
+from mindlang.compiler.source import Span, Splice
 from mindlang.compiler.syntax import NOUNS, Rewards, of_form
 from mindlang.editing.insertion import replace_span
 from mindlang.editing.project import (

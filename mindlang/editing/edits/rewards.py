@@ -29,4 +29,4 @@ def rewards(project: Project, task: str) -> MindChange:
     first, *others = own
     indent = insertion.indentation(declaration)
     written = insertion.replace_line(first, [f"{indent}{line}" for line, _ in lines])
-    return MindChange((written, *map(insertion.without_fact, others)))
+    return MindChange((written, *map(insertion.without_line, others)))

@@ -1,17 +1,19 @@
-"""Lessons that teach nobody, too early, twice, or in a world that lacks something."""
+"""Lessons that teach nobody, too early, twice, or in a world that lacks something; weights of something else."""
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 
 from mindrun.graph.skill_sets import genes, learners
 from mindrun.kinds.learners import Learner
 from mindrun.kinds.sensors.sensor import Physical
+from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.diagnostic import Label, listed
 from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.model import Lesson, Skill
 from mindlang.lint.study import Finding, Found, Study, removal, rule
-from mindlang.lock.status import mismatches
+from mindlang.lock.status import Trained, mismatches, status
 
 Readers = dict[str, tuple[str, str]]  # by thing: a skill and the sensor about the thing that it reads
 
@@ -211,3 +213,26 @@ def untaught_skill(study: Study) -> Found:
 def _lesson(study: Study, skill: Skill) -> str:
     task = skill.name if skill.name in study.tasks else next(iter(study.tasks), "TASK")
     return f"teaches {skill.name} on {task} for 1000 generations"
+
+
+@rule()
+def stale_weights(study: Study) -> Found:
+    """Skills that the lock knows with another signature; notes on subskills, as `mindc status` has them, are none."""
+    for skill in study.graph.skills:
+        entry = study.lock.get(skill.name)
+        if entry and skill.function.learns and not skill.like and (found := mismatches(study.graph, skill, entry)):
+            first = f"Unfreeze {skill.name} first: then " if skill.frozen else ""
+            message = f"The weights of {skill.name} are stale: {'; '.join(found)}."
+            yield Finding(study.skills[skill.name].span, message, f"{first}mindc train teaches it again.")
+
+
+@rule()
+def taught_elsewhere(study: Study) -> Found:
+    for name, state in status(study.graph, study.lock, study.main.folder).items():
+        if isinstance(state, Trained) and state.is_elsewhere and not study.skills[name].like:
+            message = f"{name} was taught elsewhere: {'; '.join(state.changes)}."
+            accept = command_line("mindc", "status", Path(study.main.path.name), "--accept", name)
+            hint = f"mindc train teaches it again; {accept} leaves it as it is."
+            if not state.outdated:
+                hint = f"No lesson teaches {name} in this world: write one, or take back what has changed."
+            yield Finding(study.skills[name].span, message, hint)

@@ -7,7 +7,7 @@ from math import sin
 from mindrun.kinds.registry import arguments, kinds
 
 from mindlang.compiler.diagnostic import Label
-from mindlang.compiler.references import introductions
+from mindlang.compiler.names import introductions
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Name
 from mindlang.lint.study import Finding, Found, Study, name_words, rule

@@ -31,7 +31,6 @@ def bare_rate(study: Study) -> Found:
 
 
 def _rates(declaration: Declaration) -> Iterator[Argument]:
-    """The arguments of a declaration that are rates."""
     phrase = declaration.header.phrase
     cls = kinds(declaration.header.noun.text).get(phrase.kind.text) if phrase else None
     if phrase and cls:
