@@ -14,13 +14,14 @@ from pathlib import Path
 
 import numpy as np
 from mindrun.engine.engine import procedure_sources
-from mindrun.engine.think import clamped, hierarchy, values
+from mindrun.engine.think import hierarchy, values
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.graph.skill_sets import genes
 from mindrun.kinds.functions.function import Stateful
 from mindrun.kinds.procedure_text import Sources
 from mindrun.kinds.sensors.sensor import directions
+from mindrun.numbers.arithmetic import clamp
 from mindrun.numbers.arrays import Doubles
 
 from mindlang.lock.status import trained_weights
@@ -119,7 +120,7 @@ def commands_of(policy: Policy, sources: Sources, drive: Drive) -> dict[str, Dou
             for row, readings in zip(sent, drive.readings, strict=True):
                 for edge, value in zip(ready.edges, values(ready, readings), strict=True):
                     if edge.drives and value is not None and np.isfinite(value) and edge.to < len(row):
-                        row[edge.to] = clamped(value)
+                        row[edge.to] = clamp(value)
         found[skill.name] = sent
     return found
 
