@@ -7,6 +7,7 @@ from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
+from tests.draws import first
 from tests.sim.following import follow
 from tests.sim.minds import compile_text
 
@@ -47,7 +48,7 @@ task World in arena size 24
 """
 
 
-@pytest.mark.parametrize("seed", [*range(4), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(4, 16))])
+@pytest.mark.parametrize("seed", first(4, range(16)))
 def test_forces_equal_plain_pymunk(seed: int) -> None:
     """Between walls, obstacles, the robot and each other, which all of them push."""
     outcome = ("", "delivered stays", "reached vanishes", "reached moves")[seed % 4]

@@ -6,6 +6,7 @@ from mindrun.engine.engine import Engine
 from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 
+from tests.draws import first
 from tests.sim.following import follow
 from tests.sim.minds import compile_text
 
@@ -63,7 +64,7 @@ def world(ticks: int, outcome: str = "") -> Rollout:
     return Rollout(Policy(graph, {}), "World", "Push")
 
 
-@pytest.mark.parametrize("seed", [*range(3), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(3, 12))])
+@pytest.mark.parametrize("seed", first(3, range(12)))
 def test_pushes_equal_plain_pymunk(seed: int) -> None:
     """A robot that drives about between walls, obstacles and loose things, which it pushes against all of them."""
     rollout = world(500 if seed < 3 else 1_500, ("", "delivered stays", "delivered vanishes")[seed % 3])

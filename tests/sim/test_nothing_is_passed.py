@@ -16,6 +16,7 @@ from mindrun.sim.task_rows import things_of
 from mindrun.sim.trace import trace
 from numpy.typing import NDArray
 
+from tests.draws import first
 from tests.sim.following import follow
 from tests.sim.minds import compile_text
 from tests.sim.swift_worlds import swift_world
@@ -81,7 +82,7 @@ def test_nothing_is_passed(first: int) -> None:
     assert min(seen.values()) > 20
 
 
-@pytest.mark.parametrize("seed", range(16))
+@pytest.mark.parametrize("seed", first(6, range(16)))
 def test_swift_worlds_are_what_plain_pymunk_says(seed: int) -> None:
     """In as many strides, bit for bit."""
     graph = swift_world(Random(seed), 40)
