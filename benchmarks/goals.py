@@ -60,20 +60,19 @@ WAYS: dict[str, dict[str, list[str]]] = {"rewards": {}, "goals": GOALS, "and for
 class Curve:
     """The ticks taken and the count of the best so far, at each look at a lesson, and the ticks of the whole lesson."""
 
-    ticks: tuple[int, ...]
-    counts: tuple[float, ...]
+    looks: tuple[tuple[int, float], ...]
     lesson_ticks: int
 
     def __str__(self) -> str:
-        looks = (f"{at / 1e6:.2f} {count:.1f}" for at, count in zip(self.ticks, self.counts, strict=True))
-        return f"{self.lesson_ticks / 1e6:.2f} M ticks: {', '.join(looks)}"
+        said = ", ".join(f"{ticks / 1e6:.2f} {count:.1f}" for ticks, count in self.looks)
+        return f"{self.lesson_ticks / 1e6:.2f} M ticks: {said}"
 
     def count_at(self, ticks: int) -> float:
-        return [0.0, *(count for at, count in zip(self.ticks, self.counts, strict=True) if at <= ticks)][-1]
+        return [0.0, *(count for at, count in self.looks if at <= ticks)][-1]
 
     def reaches(self, bar: float) -> float:
         """The ticks with which it first counts so many; ∞ where it does not."""
-        return next((float(at) for at, count in zip(self.ticks, self.counts, strict=True) if count >= bar), inf)
+        return next((float(ticks) for ticks, count in self.looks if count >= bar), inf)
 
 
 def graph(goals: dict[str, list[str]]) -> Graph:
@@ -112,7 +111,7 @@ class Teaching:
         rollout, lesson = self.rollouts[way], self.lessons[way]
         course = Course(lesson, seed, np.empty((0, rollout.genome_length), np.float32))
         state, champion = begin_attempt(course), course.start
-        taken, whole, points = 0, 0, list[tuple[int, float]]()
+        taken, whole, looks = 0, 0, list[tuple[int, float]]()
         while not whole or taken < SHARE_OF_TICKS * (ticks or whole):
             state, record = generation(course, rollout, 0, state)
             taken, number = taken + record.ticks, state.population.generation
@@ -120,10 +119,10 @@ class Teaching:
             if number == 1 or number % self.options.every == 0 or number >= lesson.generations:
                 fresh = layouts(seed, CURVE, number, REEVALUATION_LAYOUTS, Purpose.REEVALUATION)
                 looked, *_ = reevaluate(replace(state, champion=champion), rollout, fresh)
-                is_same = points and np.array_equal(looked.champion, champion)
-                points.append((taken, points[-1][1] if is_same else self.counts(looked.champion)))
+                is_same = looks and np.array_equal(looked.champion, champion)
+                looks.append((taken, looks[-1][1] if is_same else self.counts(looked.champion)))
                 champion = looked.champion
-        return Curve(*zip(*points, strict=True), whole)
+        return Curve(tuple(looks), whole)
 
 
 def rows(task: str, found: dict[str, list[Curve]]) -> Iterator[str]:
