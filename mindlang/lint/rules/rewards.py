@@ -17,7 +17,7 @@ HINT = "Pay for what is counted, too; mindc audit says what each line really pay
 def paid_motion(study: Study) -> Found:
     for task in study.mind.tasks:
         paid = [reward.on for reward in task.rewards if reward.on]
-        if not task.counts or any(on in task.counts or on.is_of_success for on in paid):
+        if not task.counts or of_form(task.facts, Wants) or any(on in task.counts or on.is_of_success for on in paid):
             continue
         value = study.worlds[task.name].range_in
         for reward in task.rewards:
