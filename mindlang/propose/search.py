@@ -103,15 +103,13 @@ class Search:
         for _ in range(MOST_ADDED):
             larger = _larger(self.known, base.candidate, able)
             candidates = {what: each for what, each in larger if what not in self.refused}
-            if not candidates:
-                break
             found = self.race(started(self.stage, candidates.values()), finalists=1)
-            names = {_key(each): what for what, each in candidates.items()}
-            for each in found:
-                self.refused[names[_key(each.candidate)]] = gain(base.scores[base.best], each.scores[each.best])
-            if not found or not is_surely_better(found[0], base):
+            if not found:
                 break
-            what = names[_key(found[0].candidate)]
+            what = next(name for name, each in candidates.items() if each == found[0].candidate)
+            self.refused[what] = gain(base.scores[base.best], found[0].scores[found[0].best])
+            if not is_surely_better(found[0], base):
+                break
             self.worth[what] = self.refused.pop(what)
             base = found[0]
         return base
@@ -203,10 +201,6 @@ def _larger(known: Known, candidate: Candidate, able: Sequence[str]) -> Iterator
     for name in known.changing:
         if name in known.named and name not in candidate.reads:
             yield name, replace(candidate, reads=(*candidate.reads, name))
-
-
-def _key(candidate: Candidate) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    return candidate.reads, candidate.sends
 
 
 def propose(stage: Stage) -> Proposal:
