@@ -21,7 +21,7 @@ from mindlang.compiler.source import Splice, spliced
 from mindlang.compiler.syntax import Master, Teaches, of_form
 from mindlang.editing.insertion import replace_span, without_declarations, without_line
 from mindlang.propose.candidates import BIAS, Candidate, function_of
-from mindlang.propose.search import FINAL_ATTEMPTS, Proposal, propose
+from mindlang.propose.search import WINNER_ATTEMPTS, Proposal, propose
 from mindlang.propose.static import known_of
 from mindlang.propose.trial import LESSON_GENERATIONS, Stage
 
@@ -110,7 +110,7 @@ def declared_score(task: str, path: Path, stage: Stage) -> float:
     base = Candidate("scratch", skill.reads, sends, function=function_of(graph, task))
     trial = stage.begin(base)
     assert trial
-    stage.teach(trial, LESSON_GENERATIONS, FINAL_ATTEMPTS)
+    stage.teach(trial, LESSON_GENERATIONS, WINNER_ATTEMPTS)
     return trial.score
 
 

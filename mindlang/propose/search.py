@@ -8,7 +8,7 @@ the best of its attempts is as good.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
-from mindlang.propose.candidates import BIAS, Candidate, learning_candidates, like_candidates, master_over
+from mindlang.propose.candidates import BIAS, Candidate, learning_candidates, like_candidates
 from mindlang.propose.static import Known
 from mindlang.propose.trial import (
     LESSON_GENERATIONS,
@@ -21,8 +21,8 @@ from mindlang.propose.trial import (
     started,
 )
 
-RUNGS = ((6, 8), (20, 4), (LESSON_GENERATIONS, 2))  # generations of all, and how many go on from there
 FINAL_ATTEMPTS = 3
+WINNER_ATTEMPTS = 6  # of the winner, whose best is shown: of three the best differs by a tenth from that of others
 MOST_ADDED = 3  # rounds in which something is added
 
 
@@ -72,57 +72,60 @@ class Search:
         learning = started(self.stage, learning_candidates(self.known, names, gains))
         finalists = self.race(learning)
         if finalists and (settled is nothing or is_surely_better(finalists[0], settled)):
-            settled = self.prune(self.grow(finalists[0], names))
+            settled = self.grow(self.prune(finalists[0]), names)
+            settled = self._without(settled, [BIAS])
+            self._teach(settled, LESSON_GENERATIONS, WINNER_ATTEMPTS)
+            self.worth |= {name: cost for name, cost in self._costs(settled).items() if name not in self.worth}
         return Proposal(settled, nothing.score, probed, self.tried, self.worth, self.refused, self.ticks)
 
-    def race(self, trials: Sequence[Trial]) -> list[Trial]:
-        """Successive halving: all are taught a little, the best go on; the last have two attempts. The best first."""
+    def race(self, trials: Sequence[Trial], finalists: int = 2) -> list[Trial]:
+        """Successive halving: all are taught a little, the best go on; the last have three attempts. The best first."""
         running = [*trials]
-        for generations, count in RUNGS:
+        for generations, count in ((6, 8), (20, finalists), (LESSON_GENERATIONS, finalists)):
             attempts = FINAL_ATTEMPTS if generations == LESSON_GENERATIONS else 1
-            if attempts > 1:
-                running = running[:count]
             with self.stage.counting(f"{len(running)} candidates, {generations} generations", len(running)) as told:
                 for trial in running:
-                    before = trial.ticks
-                    self.stage.teach(trial, generations, attempts)
-                    self.ticks += trial.ticks - before
+                    self._teach(trial, generations, attempts)
                     told(1)
             running.sort(key=lambda trial: -trial.score)
-            kept = running[:count]
-            self.tried += [(each.candidate, generations, each.score) for each in running[len(kept) :]]
-            running = kept
+            self.tried += [(each.candidate, generations, each.score) for each in running[count:]]
+            running = running[:count]
         self.tried += [(each.candidate, LESSON_GENERATIONS, each.score) for each in running]
         return running
+
+    def _teach(self, trial: Trial, generations: int, attempts: int) -> None:
+        before = trial.ticks
+        self.stage.teach(trial, generations, attempts)
+        self.ticks += trial.ticks - before
 
     def grow(self, base: Trial, able: Sequence[str]) -> Trial:
         """The winner with more readings or one more subskill, as long as that is surely better."""
         for _ in range(MOST_ADDED):
-            candidates = dict(_larger(self.known, base.candidate, able))
-            if not candidates:
+            larger = _larger(self.known, base.candidate, able)
+            candidates = {what: each for what, each in larger if what not in self.refused}
+            found = self.race(started(self.stage, candidates.values()), finalists=1)
+            if not found:
                 break
-            found = self.race(started(self.stage, [*candidates.values()]))
-            names = {_key(each): what for what, each in candidates.items()}
-            for each in found:
-                self.refused[names[_key(each.candidate)]] = gain(base.scores[base.best], each.scores[each.best])
-            if not found or not is_surely_better(found[0], base):
+            what = next(name for name, each in candidates.items() if each == found[0].candidate)
+            self.refused[what] = gain(base.scores[base.best], found[0].scores[found[0].best])
+            if not is_surely_better(found[0], base):
                 break
-            what = names[_key(found[0].candidate)]
             self.worth[what] = self.refused.pop(what)
             base = found[0]
         return base
 
     def prune(self, base: Trial) -> Trial:
-        """The winner without readings that cost nothing when they are held at their means, if it is as good.
+        """The winner without readings that it does not need: if it is as good, all that the task does not name.
 
-        Where it is not without all of these, then perhaps without the first half of them.
+        Then those that cost nothing when they are held at their means; where it is worse without all of these, perhaps
+        the first half of them.
         """
+        unnamed = [name for name in base.candidate.reads if name not in self.known.named and name != BIAS]
+        base = self._without(base, unnamed)
         idle = self._idle(base)
         while idle and (smaller := self._without(base, idle)) is base:
             idle = idle[: len(idle) // 2]
-        base = self._without(smaller if idle else base, [BIAS])
-        self.worth |= {name: cost for name, cost in self._costs(base).items() if name not in self.worth}
-        return base
+        return smaller if idle else base
 
     def _without(self, base: Trial, names: Sequence[str]) -> Trial:
         """The winner without some readings, taught again; itself where it is better than that."""
@@ -192,14 +195,12 @@ def _larger(known: Known, candidate: Candidate, able: Sequence[str]) -> Iterator
     learnt = [name for name in candidate.subskills if known.skills[name].function.learns]
     for name in able:
         if name not in learnt and known.skills[name].function.learns:
-            yield name, master_over(known, able, [*learnt, name])
+            more = (read for read in known.reads_of(name) if read in known.named and read not in candidate.reads)
+            sends = (f"influences {name}", *candidate.sends)
+            yield name, replace(candidate, reads=(*candidate.reads, *more), sends=sends)
     for name in known.changing:
         if name in known.named and name not in candidate.reads:
             yield name, replace(candidate, reads=(*candidate.reads, name))
-
-
-def _key(candidate: Candidate) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    return candidate.reads, candidate.sends
 
 
 def propose(stage: Stage) -> Proposal:
