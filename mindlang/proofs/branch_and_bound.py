@@ -18,7 +18,7 @@ from mindlang.proofs.interval import (
     Boxes,
     is_known,
     join_boxes,
-    perceptron_matrices,
+    known_matrices,
     select_boxes,
     sent_bounds,
     whole_box,
@@ -141,8 +141,9 @@ def sway_of(skill: Skill, weights: Weights | None) -> Singles:
         for word, reading in (term for program in edge.programs for term in program):
             if word == "reading":
                 sway[int(reading)] += 1
-    for matrix in perceptron_matrices(skill, weights)[:1]:
-        sway += np.minimum(np.abs(matrix), 1e6).sum(axis=0)
+    for matrix in known_matrices(skill, weights)[:1]:
+        begin = skill.function.bias
+        sway += np.minimum(np.abs(matrix[:, begin : begin + len(sway)]), 1e6).sum(axis=0)
     return sway
 
 

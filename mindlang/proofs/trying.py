@@ -13,7 +13,7 @@ from mindrun.numbers.network import FLOAT32, NOTHING
 from networkx import DiGraph
 
 from mindlang.compiler.hierarchy import with_ancestors
-from mindlang.proofs.interval import is_known, perceptron_matrices
+from mindlang.proofs.interval import is_known, known_matrices
 
 TRIED_READINGS, MAX_WEIGHT_READINGS = 4096, 20_000_000  # readings, and weights times readings
 
@@ -49,7 +49,7 @@ def think_rows(graph: Graph, weights: WeightsBySkill, readings: Singles) -> Thou
 
 def sent_values(skill: Skill, weights: Weights | None, readings: Singles) -> Singles:
     """The values that a skill sends [rows, edges] before the clamp; NaN where a gate is closed and nothing is sent."""
-    outputs, layers = np.zeros((len(readings), skill.outputs), np.float32), perceptron_matrices(skill, weights)
+    outputs, layers = np.zeros((len(readings), skill.outputs), np.float32), known_matrices(skill, weights)
     found = np.empty((len(readings), len(skill.edges)), np.float32)
     with np.errstate(all="ignore"):
         if layers:

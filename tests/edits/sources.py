@@ -27,6 +27,9 @@ FUNCTIONS = (
     "elman width 3",
     "gru",
     "gru width 3",
+    "elman bias 1",
+    "gru bias 1",
+    "mlp hidden 1 bias 1",
     "procedure from own.by",
     "procedure from own.to",
 )

@@ -304,7 +304,7 @@ def _holds(learner: model.Skill, other: model.Skill, widths: Mapping[str, int]) 
     if own == its:
         return True
     holds = all(a >= b for more, less in zip(large, small, strict=False) for a, b in zip(more, less, strict=True))
-    return type(own) is type(its) and 0 < len(large) == len(small) and holds
+    return type(own) is type(its) and own.bias >= its.bias and 0 < len(large) == len(small) and holds
 
 
 def _sized(skill: model.Skill, widths: Mapping[str, int]) -> "tuple[Function, Layers]":

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from mindrun.numbers.network import Terms
 
 Width = Annotated[int, Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)]
+Bias = Annotated[int, Quantity("a whole number", {"": 1.0}, low=0, high=1, whole=True)]
 # Of the weights that learning begins with, 4: without biases, small weights leave every sigmoid near 1/2. Tried on a
 # stand-in for GoToObject, 6 seeds each, until 17 targets: with 1 one seed got there in 100 M ticks, with 2 all by the
 # 10th generation, with 4 five in the first; 6 (until 22 targets) was no better than 4.
@@ -41,6 +42,7 @@ class Function:
 
     learns = False
     has_outputs = True  # whether edges without `at` can send one
+    bias = 0  # 1 if each of its matrices has a first column that reads 1
     opaque = ""  # why nothing can be proved of its outputs, even with its weights
     calls: str | None = None  # the Python function whose text belongs to the mind, `module.function`, if it calls one
     derived: tuple[str, ...] = ()  # arguments that nobody said and that follow from what its skill reads and sends
@@ -50,7 +52,7 @@ class Function:
         return self
 
     def layers(self, inputs: int, outputs: int) -> Layers:
-        """The layers of a feed-forward network without biases; none where it is something else."""
+        """The layers of a feed-forward network; none where it is something else."""
         return () if self.opaque else self.matrix_shapes(inputs, outputs)
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
@@ -69,7 +71,7 @@ class Function:
         return 0
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
-        """The kind's own columns of the lanes' table of skills: `hidden` and `width`."""
+        """The kind's own columns of the lanes' table of skills: `hidden`, `width` and `bias`."""
         return {}
 
     def scratch(self, inputs: int, outputs: int) -> int:
@@ -112,9 +114,10 @@ class Function:
 
 
 class NetworkFunction(Function):
-    """A network of matrices without biases, with neurons of a `width` (0: Eq. 5, max(inputs, outputs) + 2).
+    """A network of matrices with neurons of a `width` (0: Eq. 5, max(inputs, outputs) + 2).
 
-    Without inputs or outputs it has no matrices. Its last one gives the outputs.
+    Without inputs or outputs it has no matrices. Its last one gives the outputs. With `bias 1` each matrix has one more
+    column, the first: what it reads there is always 1.
     """
 
     __slots__ = ()
@@ -138,7 +141,11 @@ class NetworkFunction(Function):
         return replace(self, width=self.neurons(inputs, outputs))  # type: ignore[type-var]
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
-        return {"width": self.neurons(inputs, outputs)}
+        return {"width": self.neurons(inputs, outputs), "bias": self.bias if inputs and outputs else 0}
+
+    def read(self, of: Terms, values: Any) -> Any:
+        """The values [..., values] that a matrix reads: with a bias 1 before them."""
+        return of.biased(values) if self.bias else values
 
     def draw(self, inputs: int, outputs: int, count: int, rng: np.random.Generator) -> Weights:
         """Random genomes [count, weights] whose outputs are 1/2 where all neurons say 1/2."""
@@ -147,22 +154,28 @@ class NetworkFunction(Function):
         genomes = INITIAL_SPREAD * rng.standard_normal((count, self.genome_length(inputs, outputs)), np.float32)
         for before, after in self.matrix_shapes(inputs, outputs)[-1:]:
             last = genomes[:, -before * after :].reshape(count, after, before)
-            last += (1 - last.sum(axis=2, keepdims=True)) / before
+            if self.bias:
+                last[..., 0] = (1 - last[..., 1:].sum(axis=2)) / 2
+            else:
+                last += (1 - last.sum(axis=2, keepdims=True)) / before
         return genomes
 
     def widened(
         self, weights: Weights, before: tuple[int, int], now: Function, after: tuple[int, int]
     ) -> Weights | None:
+        import numpy as np
+
         from mindrun.numbers.network import genome, matrices, padded
 
         small, large = self.matrix_shapes(*before), now.matrix_shapes(*after)
+        bias, new = now.bias, now.bias - self.bias
         if len(small) != len(large) or any(a < b or c < d for (a, c), (b, d) in zip(large, small, strict=True)):
             return None
-        if after[0] < before[0] or now.state_length(*after) < self.state_length(*before):
+        if after[0] < before[0] or now.state_length(*after) < self.state_length(*before) or new < 0:
             return None
-        found = matrices(weights, small)
-        cuts = [before[0] if number < self.readers else shape[0] for number, shape in enumerate(small)]
-        places = [after[0] if number < self.readers else shape[0] for number, shape in enumerate(large)]
+        found = (np.pad(matrix, ((0, 0), (new, 0))) for matrix in matrices(weights, small))
+        cuts = [bias + before[0] if number < self.readers else shape[0] + new for number, shape in enumerate(small)]
+        places = [bias + after[0] if number < self.readers else shape[0] for number, shape in enumerate(large)]
         return genome(map(padded, found, large, cuts, places))
 
     def reordered(self, weights: Weights, inputs: Sequence[int], outputs: Sequence[int]) -> Weights:
@@ -173,7 +186,9 @@ class NetworkFunction(Function):
             return weights
         found = list(matrices(weights, shapes))
         for number, (columns, _) in enumerate(shapes[: self.readers]):
-            found[number] = found[number][:, [*inputs, *range(len(inputs), columns)]]
+            moved = [self.bias + place for place in inputs]
+            rest = range(self.bias + len(inputs), columns)
+            found[number] = found[number][:, [*range(self.bias), *moved, *rest]]
         found[-1] = found[-1][list(outputs)]
         return genome(found)
 
