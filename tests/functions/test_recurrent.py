@@ -61,6 +61,7 @@ RECURRENT = {
     "gru": MIND.replace("is elman", "is gru"),
     "elman bias 1": MIND.replace("width 5", "width 5 bias 1"),
     "gru bias 1": MIND.replace("is elman width 5", "is gru width 5 bias 1"),
+    "neat links any": MIND.replace("is elman width 5", "is neat most 5 links any"),
 }
 both = pytest.mark.parametrize("text", RECURRENT.values(), ids=RECURRENT)
 
@@ -78,7 +79,9 @@ def test_outputs_begin_about_a_half(function: NetworkFunction, bias: int) -> Non
 
 def drawn(graph: Graph, seed: int, count: int = 1) -> np.ndarray:
     skill = next(skill for skill in graph.skills if skill.name == "Roam")
-    return skill.function.draw(len(skill.inputs), skill.outputs, count, np.random.default_rng(seed))
+    rng = np.random.default_rng(seed)
+    genomes = skill.function.draw(len(skill.inputs), skill.outputs, count, rng)
+    return np.where(genomes == 0, rng.normal(0, 2, genomes.shape).astype(np.float32), genomes)  # all links of a neat
 
 
 def follow(rollout: Rollout, engine: Engine, seed: int, genome: np.ndarray | None = None) -> int:
@@ -102,9 +105,9 @@ def test_the_lanes_remember_as_the_engine_does(text: str, seed: int) -> None:
 
 
 @pytest.mark.parametrize("bias", [0, 1])
-@pytest.mark.parametrize("hidden", [0, 1, 2])
-def test_the_lanes_compute_every_hidden_layer_of_a_perceptron(hidden: int, bias: int) -> None:
-    graph = mind(MIND.replace("is elman width 5", f"is mlp hidden {hidden} bias {bias}"))
+@pytest.mark.parametrize("hidden", ["mlp hidden 0", "mlp hidden 1", "mlp hidden 2", "neat most 5", "neat most 0"])
+def test_the_lanes_compute_every_hidden_layer_of_a_perceptron(hidden: str, bias: int) -> None:
+    graph = mind(MIND.replace("is elman width 5", f"is {hidden} bias {bias}"))
     weights = {"Roam": drawn(graph, 1)[0]}
     assert follow(Rollout(Policy(graph, weights), "World", "Top"), Engine(Policy(graph, weights)), 1) > 20
 

@@ -12,8 +12,9 @@ from mindrun.numbers.quantity import Quantity
 if TYPE_CHECKING:
     import numpy as np
 
+    from mindrun.kinds.learners import Genetic
     from mindrun.kinds.procedure_text import Sources
-    from mindrun.numbers.arrays import Compute, Layers, Weights
+    from mindrun.numbers.arrays import Bools, Compute, Doubles, Layers, Weights
     from mindrun.numbers.network import Terms
 
 Width = Annotated[int, Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)]
@@ -42,6 +43,7 @@ class Function:
 
     learns = False
     has_outputs = True  # whether edges without `at` can send one
+    grows = False  # whether it learns which of its inputs it reads, too
     bias = 0  # 1 if each of its matrices has a first column that reads 1
     opaque = ""  # why nothing can be proved of its outputs, even with its weights
     calls: str | None = None  # the Python function whose text belongs to the mind, `module.function`, if it calls one
@@ -78,12 +80,16 @@ class Function:
         """The number of rows of `s.hidden` that its lane function writes, its outputs among them."""
         return outputs
 
+    def gathered(self, inputs: int, outputs: int) -> int:
+        """The number of rows of `s.gathered` that its lane function reads or writes, its inputs the first of them."""
+        return inputs + self.state_length(inputs, outputs)
+
     @staticmethod
     def lane(t: Any, s: Any, skill: Any, n: int) -> int:
         """Write its outputs in n simulated worlds into rows of `s.hidden`; return the first of these rows.
 
         Compiled, in the terms of `numbers.arithmetic`, which it is given then. The inputs stand in `s.gathered`, with
-        as many rows behind them as it remembers; the weights from `skill.weights` on (`mlp.layer` takes them where they
+        room behind them; the weights from `skill.weights` on (`mlp.layer` takes them where they
         are). World number k is lane `s.active[k]`; what it remembers stands in `s.recurrent` from `skill.state` on.
         """
         return 0
@@ -97,6 +103,57 @@ class Function:
         import numpy as np
 
         return np.empty((count, 0), np.float32)
+
+    def grown(self, genomes: Weights, outputs: int, rates: Genetic, rng: np.random.Generator) -> Weights:
+        """The genomes [individuals, weights], some of them with other links, as often as `rates` say."""
+        return genomes
+
+    def crossed(self, mothers: Weights, fathers: Weights, first: Bools, better: Bools) -> Weights:
+        """Children [individuals, weights], each weight that of the mother where `first` says so, else of the father.
+
+        `better` [individuals, 1] says of each mother whether she did better than the father.
+        """
+        import numpy as np
+
+        return np.where(first, mothers, fathers)
+
+    def moved(self, genomes: Weights, steps: Weights) -> Weights:
+        """The genomes [individuals, weights], moved by steps where they may be."""
+        return genomes + steps
+
+    def distance(self, genomes: Weights, one: Weights) -> Doubles:
+        """How far genomes [individuals, weights] are from one: [individuals]; 0 where they are the same."""
+        import numpy as np
+
+        return np.asarray(np.abs(genomes - one).sum(axis=1), np.float64)
+
+    def summary(self, weights: Weights, outputs: int) -> str:
+        """What a status says of its weights; mostly nothing."""
+        return ""
+
+    def narrowed(self, weights: Weights, outputs: int, kept: Sequence[int]) -> Weights | None:
+        """Weights with which it does the same with these of its inputs alone; None where the others matter."""
+        return None
+
+    def unread(self, weights: Weights, outputs: int) -> list[int]:
+        """The inputs, by their places, that no link leads from, of a function that `grows`."""
+        return []
+
+    def pruned(self, weights: Weights, outputs: int) -> Function:
+        """The function without what leads nowhere with these weights: it does the same."""
+        return self
+
+    def neurons_as_links(self, inputs: int, outputs: int) -> int | None:
+        """How many neurons a network of single links needs to do the same; None where it cannot."""
+        return None
+
+    def recast(self, weights: Weights, size: tuple[int, int], of: Function) -> Weights | None:
+        """Weights with which it does what another function of its size (inputs, outputs) does with these, if it can."""
+        return None
+
+    def holds(self, size: tuple[int, int], other: Function, its: tuple[int, int]) -> bool:
+        """True if of `size` (inputs, outputs) it does what another of its size does, once some weights are 0."""
+        return False
 
     def widened(self, weights: Weights, before: tuple[int, int], now: Self, after: tuple[int, int]) -> Weights | None:
         """Weights with which `now`, of more inputs or outputs, does the same, 0 for what is new; None if it cannot."""
@@ -160,6 +217,17 @@ class NetworkFunction(Function):
                 last += (1 - last.sum(axis=2, keepdims=True)) / before
         return genomes
 
+    def holds(self, size: tuple[int, int], other: Function, its: tuple[int, int]) -> bool:
+        large, small = self.matrix_shapes(*size), other.matrix_shapes(*its)
+        return (
+            type(self) is type(other)
+            and 0 < len(large) == len(small)
+            and all(a >= b and c >= d for (a, c), (b, d) in zip(large, small, strict=True))
+            and size[0] >= its[0]
+            and self.state_length(*size) >= other.state_length(*its)
+            and self.bias >= other.bias
+        )
+
     def widened(
         self, weights: Weights, before: tuple[int, int], now: Function, after: tuple[int, int]
     ) -> Weights | None:
@@ -167,12 +235,10 @@ class NetworkFunction(Function):
 
         from mindrun.numbers.network import genome, matrices, padded
 
+        if not now.holds(after, self, before):
+            return None
         small, large = self.matrix_shapes(*before), now.matrix_shapes(*after)
         bias, new = now.bias, now.bias - self.bias
-        if len(small) != len(large) or any(a < b or c < d for (a, c), (b, d) in zip(large, small, strict=True)):
-            return None
-        if after[0] < before[0] or now.state_length(*after) < self.state_length(*before) or new < 0:
-            return None
         found = (np.pad(matrix, ((0, 0), (new, 0))) for matrix in matrices(weights, small))
         cuts = [bias + before[0] if number < self.readers else shape[0] + new for number, shape in enumerate(small)]
         places = [bias + after[0] if number < self.readers else shape[0] for number, shape in enumerate(large)]

@@ -34,6 +34,9 @@ class Mlp(NetworkFunction):
         sizes = pairwise((inputs, *widths, outputs)) if inputs and outputs else ()
         return tuple((before + self.bias, after) for before, after in sizes)
 
+    def neurons_as_links(self, inputs: int, outputs: int) -> int | None:
+        return self.hidden * self.neurons(inputs, outputs)
+
     def forward(self, of: Terms, matrices: Sequence[Any], inputs: Any, state: Any) -> tuple[Any, Any]:
         *hidden, last = matrices
         values = inputs
