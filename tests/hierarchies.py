@@ -326,7 +326,13 @@ def _placed(sensors: list[Sensor]) -> tuple[Sensor, ...]:
 
 def networks(fewest: int) -> st.SearchStrategy[Function]:
     """A function of any kind that learns, with so many hidden layers at least where it can have several."""
-    said = {"hidden": st.integers(fewest, 3), "width": st.sampled_from([0, 0, 1, 5, 17])}
+    said = {
+        "hidden": st.integers(fewest, 3),
+        "width": st.sampled_from([0, 0, 1, 5, 17]),
+        "bias": st.integers(0, 1),
+        "most": st.integers(0, 6),
+        "links": st.sampled_from(["any", "forward"]),
+    }
     learning = [cls for cls in kinds("skill").values() if cls.learns]
     return st.one_of(st.builds(cls, **{each.field: said[each.field] for each in arguments(cls)}) for cls in learning)
 

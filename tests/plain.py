@@ -281,6 +281,7 @@ PLAIN = Terms(  # in which a function says what it computes
     product=lambda values, matrix: np.array([dense(row, values) for row in matrix], f),
     sigmoid=lambda values: np.array([sigmoid(value) for value in values], f),
     joined=lambda one, other: np.array([*one, *other], f),
+    biased=lambda values: np.array([1, *values], f),
 )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,7 +15,7 @@ from mindlang.editing.project import EditError, MindChange, Replaced, Unshared
 from mindlang.editing.world_names import Renaming
 from mindlang.lock import Entry, Lock, Locks, Signature
 from mindlang.lock.blobs import blob, digest, load_weights
-from mindlang.lock.signature import signature, width
+from mindlang.lock.signature import places, signature, width
 from mindlang.lock.status import Stale, Trained, status
 from mindlang.lock.training_world import TrainingWorld
 
@@ -57,7 +57,10 @@ def update_locks(
         }
     if change.unshared:
         kept = {path: _with_copy(lock, change.unshared, after) for path, lock in kept.items()}
-    return _widened(locks, kept, names["skill"], before, after) if keep_weights else UpdatedLocks(kept, {})
+    if not keep_weights and not change.recast:
+        return UpdatedLocks(kept, {})
+    of = None if keep_weights else {change.recast}
+    return _widened(locks, kept, names["skill"], before, after, of)
 
 
 def new_names(change: MindChange) -> dict[str, dict[str, str]]:
@@ -139,10 +142,13 @@ def _without_likeness(world: TrainingWorld, skill: str) -> TrainingWorld:
     return TrainingWorld({**world.facts, f"skill {skill}": {"sends": fact["sends"]}}) if "like" in fact else world
 
 
-def _widened(locks: Locks, kept: Locks, new_names: Mapping[str, str], before: Graph, after: Graph) -> UpdatedLocks:
+def _widened(
+    locks: Locks, kept: Locks, new_names: Mapping[str, str], before: Graph, after: Graph, of: Container[str] | None
+) -> UpdatedLocks:
     """The locks `kept` with weights of zero for whatever a skill reads or influences beside what it was taught with.
 
-    `locks` are those before the edit. EditError where a skill that was trained cannot go on.
+    `locks` are those before the edit. EditError where a skill that was trained cannot go on, one `of` these if they are
+    said.
     """
     weights: dict[Path, Weights] = {}
     hashes: dict[tuple[str, str], str] = {}
@@ -156,7 +162,7 @@ def _widened(locks: Locks, kept: Locks, new_names: Mapping[str, str], before: Gr
             if isinstance(state, Trained)
         }
         for name, state in status(after, lock).items():
-            if isinstance(state, Stale) and name in fitted and not new[name].like:
+            if isinstance(state, Stale) and name in fitted and not new[name].like and (of is None or name in of):
                 if (found := _wide(lock[name], fitted[name], after, new[name])) is None:
                     message = f"{name} cannot keep its weights: {'; '.join(state.differences)}."
                     raise EditError(message, "Leave --keep-weights out, and teach it again after the edit.")
@@ -174,22 +180,31 @@ def _widened(locks: Locks, kept: Locks, new_names: Mapping[str, str], before: Gr
 def _wide(entry: Entry, old: Skill, graph: Graph, new: Skill) -> tuple[Entry, Weights] | None:
     """An entry, and its weights, for a skill that reads and influences more; None where it is not that alone.
 
+    It may have no input any more that no link led from.
+
     What is new has weights of zero, so the outputs are the same to the bit: a sum that zeros stand in is the same
     sum, and an output of zero is no influence. It is a command, though, and would be averaged: a skill that drives more
     has no weights that do the same.
     """
+    weights: Weights | None = load_weights(entry, old)
     was, now = entry.signature, signature(graph, new)
-    if not (set(was.reads) <= set(now.reads) and set(was.sends) <= set(now.sends)):
+    if not set(was.reads) <= set(now.reads):
+        kept = [name for name in was.reads if name in now.reads]
+        weights = old.function.narrowed(load_weights(entry, old), len(was.sends), places(kept, was.reads, {}))
+        was = replace(was, reads=tuple(kept))
+    if weights is None or not set(was.sends) <= set(now.sends):
         return None
     reads, sends = (
         (*before, *(name for name in after if name not in before))
         for before, after in ((was.reads, now.reads), (was.sends, now.sends))
     )
     influenced = {graph.named("skill", edge.target) for edge in new.edges if edge.to == "skill"}
-    if not set(sends[len(was.sends) :]) <= influenced or type(old.function) is not type(new.function):
+    if not set(sends[len(was.sends) :]) <= influenced:
         return None
     before, after = (sum(map(width, was.reads)), len(was.sends)), (sum(map(width, reads)), len(sends))
-    weights = old.function.widened(load_weights(entry, old), before, new.function, after)
-    if weights is None:
+    found = old.function.widened(weights, before, new.function, after)
+    if found is None and before == after:
+        found = new.function.recast(weights, before, old.function)
+    if found is None:
         return None
-    return replace(entry, signature=Signature(now.function, reads, sends), weights=digest(weights)), weights
+    return replace(entry, signature=Signature(now.function, reads, sends), weights=digest(found)), found

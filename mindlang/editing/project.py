@@ -66,7 +66,8 @@ class Unshared:
 class MindChange:
     """A change of a mind: `splices` of the sources, `created` files, and the names that the weights have to follow.
 
-    One that is `of_families` knows that a line may stand for several.
+    One that is `of_families` knows that a line may stand for several. The skill `recast` has another function, which
+    does the same.
     """
 
     splices: tuple[Splice, ...]
@@ -75,6 +76,7 @@ class MindChange:
     unshared: Unshared | None = None
     created: Mapping[Path, str] = field(default_factory=dict)
     of_families: bool = False
+    recast: str = ""
 
 
 @dataclass(frozen=True, slots=True)

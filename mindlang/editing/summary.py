@@ -53,8 +53,10 @@ def summarise(edited: Edited) -> list[str]:
     before = _statuses(edited.project.graph, edited.locks, edited.project.taught)
     after = _statuses(edited.graph, edited.followed.locks, edited.sources)
     old_names = _old_names(edited, after)
-    frozen = {skill.name for skill in edited.graph.skills if skill.frozen}
-    lines = [line for skill, now in after.items() for line in _skill_sentences(skill, old_names[skill], before, now)]
+    frozen, recast = {skill.name for skill in edited.graph.skills if skill.frozen}, edited.change.recast
+    lines = [
+        line for skill, now in after.items() for line in _skill_sentences(skill, old_names[skill], before, now, recast)
+    ]
     lines += [
         f"{skill} is frozen: unfreeze it to teach it again"
         for skill, now in after.items()
@@ -110,13 +112,14 @@ def _statuses(graph: Graph, locks: Locks, sources: list[Path]) -> Statuses:
     return status(arrange(graph, lock), lock)
 
 
-def _skill_sentences(skill: str, old: str, before: Statuses, now: Status) -> Iterator[str]:
+def _skill_sentences(skill: str, old: str, before: Statuses, now: Status, recast: str) -> Iterator[str]:
     match before.get(old), now:
         case Trained() as was, Trained():
             if skill != old:
                 yield f"{skill} has the weights of {old}"
             if was.entry.weights != now.entry.weights:
-                yield f"{skill} keeps its weights, with zeros for what is new"
+                new = "as a matrix of links" if skill == recast else "with zeros for what is new"
+                yield f"{skill} keeps its weights, {new}"
             if news := [change for change in now.changes if change not in was.changes]:
                 yield f"{skill} was taught elsewhere: {'; '.join(news)}"
         case Stale(known), Stale(differences):

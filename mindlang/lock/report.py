@@ -37,7 +37,7 @@ class Row:
     """A skill, how it stands, and what is wrong with the file of its weights if anything is.
 
     One that is not `needed` stands nowhere below the master, one that is `like` another has that one's weights. The
-    lessons that are `due` teach one that is trained something else.
+    lessons that are `due` teach one that is trained something else. Some functions say something of their weights.
     """
 
     skill: str
@@ -47,6 +47,7 @@ class Row:
     damage: str = ""
     like: str = ""
     due: tuple[Lesson, ...] = ()
+    about_weights: str = ""
 
     @property
     def is_fine(self) -> bool:
@@ -78,14 +79,15 @@ def rows(graph: Graph, sources: Sequence[Path]) -> list[Row]:
     needed = {skill.name for skill in reachable(graph, graph.master)}
     found = []
     for skill in graph.skills:
-        state, damage = states[skill.name], ""
+        state, damage, about = states[skill.name], "", ""
         try:
             if isinstance(state, Trained):
-                load_weights(state.entry, skill)
+                weights = load_weights(state.entry, skill)
+                about = skill.function.summary(weights, skill.outputs)
         except LockError as error:
             damage = str(error)
         due = _due(graph, skill.name, states)
-        found.append(Row(skill.name, state, skill.frozen, skill.name in needed, damage, skill.like, due))
+        found.append(Row(skill.name, state, skill.frozen, skill.name in needed, damage, skill.like, due, about))
     return found
 
 
@@ -107,7 +109,8 @@ def weights_text(row: Row) -> str:
     entry = row.status.entry
     how = f"like {row.like}" if row.like else made_by(entry.taught)
     begun = f", begun as {entry.origin_file or entry.origin[0]}" if entry.origin and not row.like else ""
-    return f"{entry.weights[:4]}…  {how}{begun}"
+    about = f"{row.about_weights}, " * bool(row.about_weights)
+    return f"{entry.weights[:4]}…  {about}{how}{begun}"
 
 
 def made_by(taught: Taught) -> str:
@@ -128,6 +131,7 @@ def as_data(row: Row) -> dict[str, Any]:
         taught = {name: getattr(entry.taught, name) for name in Taught.__slots__}
         data |= {"weights": entry.weights, "taught": taught, "subskills": dict(entry.subskills)}
         data |= {"worlds": [world.name for world in entry.worlds], "accepted": entry.accepted}
+        data |= {"about_weights": row.about_weights} if row.about_weights else {}
         if entry.origin:
             data["origin"] = dict([entry.origin])
     return data

@@ -5,7 +5,7 @@ from dataclasses import replace
 from itertools import accumulate
 
 from mindrun.graph.graph import Edge, Graph, Skill
-from mindrun.kinds.registry import arguments, names
+from mindrun.kinds.registry import arguments, later_fields, names
 from networkx import DiGraph, lexicographical_topological_sort
 
 from mindlang.lock import Entry, Lock, Signature
@@ -20,7 +20,9 @@ def signature(graph: Graph, skill: Skill) -> Signature:
     read = (at[index] for index in skill.inputs if index in at)
     sends = (graph.named(edge.to, edge.target) for edge in skill.edges if edge.output is not None)
     function = skill.function.explicit(len(skill.inputs), skill.outputs)
-    said = (f"{each.key} {getattr(function, each.field)}" for each in arguments(type(function)))
+    values = {each.field: getattr(function, each.field) for each in arguments(type(function))}
+    later = later_fields(type(function))  # of which the locks of before say nothing
+    said = (f"{key.removesuffix('_')} {value}" for key, value in values.items() if value != later.get(key, ...))
     return Signature(
         " ".join([names()[type(function)], *said]),
         tuple(f"{name}:{many}" if many > 1 else name for name, many in read),

@@ -20,9 +20,10 @@ from mindrun.kinds.functions.mlp import Mlp
 from mindrun.numbers.arithmetic import sigmoid
 from mindrun.numbers.arrays import OPERATORS, Bools, Doubles, Singles
 from mindrun.numbers.expression import fold
+from mindrun.numbers.network import FLOAT32, NOTHING
 from numpy.typing import NDArray
 
-from mindlang.proofs.trying import is_known, perceptron_matrices, readings_to_try, sent_values
+from mindlang.proofs.trying import is_known, known_matrices, readings_to_try, sent_values
 
 # More than the rounded sigmoid falls while its argument rises: 3.58e-7, measured over all float32 (docs/proofs.md).
 SIGMOID_ERROR = np.float32(5e-7)
@@ -112,34 +113,36 @@ def _outputs(skill: Skill, weights: Weights | None, boxes: Boxes) -> tuple[Singl
     """The outputs of its function; None where nothing is known of them."""
     if not is_known(skill, weights):
         return None
-    found, inputs = perceptron_matrices(skill, weights), list(skill.inputs)
+    found, inputs = known_matrices(skill, weights), list(skill.inputs)
     if not found:
         nothing = np.zeros((len(boxes.low), skill.outputs), np.float32)
         return nothing, nothing
-    return perceptron_bounds(found, boxes.low[:, inputs], boxes.high[:, inputs])
+    read = np.array([boxes.low[:, inputs], boxes.high[:, inputs]])
+    low, high = skill.function.forward(BOUNDS, found, read, NOTHING)[0]
+    return low, high
 
 
-def perceptron_bounds(layer_matrices: Sequence[Singles], low: Singles, high: Singles) -> tuple[Singles, Singles]:
-    """The bounds of a perceptron's outputs, before the clamp; infinite where a sum may overflow."""
-    *hidden, last = layer_matrices
-    for matrix in hidden:
-        low, high = _dense(matrix, low, high)
-        low, high = np.maximum(sigmoid(low) - SIGMOID_ERROR, 0), np.minimum(sigmoid(high) + SIGMOID_ERROR, 1)
-    return _dense(last, low, high)
-
-
-def _dense(matrix: Singles, low: Singles, high: Singles) -> tuple[Singles, Singles]:
+def _product(values: Singles, matrix: Singles) -> Singles:
     """Σ weight · value in the order of the values, as the engine adds: a weight below 0 turns an interval round.
 
     Weights are finite and values at most 1, so a sum can overflow, and stays infinite then, but is never NaN.
     """
+    low, high = values
     rising, falling = np.maximum(matrix, 0), np.minimum(matrix, 0)
     least, most = np.zeros((2, len(low), len(matrix)), np.float32)
     for j in range(matrix.shape[1]):
         first, last = low[:, j, None], high[:, j, None]
         least += rising[:, j] * first + falling[:, j] * last  # one of the two is 0, so this rounds once
         most += rising[:, j] * last + falling[:, j] * first
-    return least, most
+    return np.array([least, most])
+
+
+def _sigmoid(values: Singles) -> Singles:
+    low, high = sigmoid(values)
+    return np.array([np.maximum(low - SIGMOID_ERROR, 0), np.minimum(high + SIGMOID_ERROR, 1)])
+
+
+BOUNDS = FLOAT32._replace(product=_product, sigmoid=_sigmoid)  # the terms of bounds [2, boxes, values], low and high
 
 
 def expression_bounds(program: Program, boxes: Boxes) -> tuple[Singles, Singles]:
@@ -280,8 +283,9 @@ def sway_of(skill: Skill, weights: Weights | None) -> Singles:
         for word, reading in (term for program in edge.programs for term in program):
             if word == "reading":
                 sway[int(reading)] += 1
-    for matrix in perceptron_matrices(skill, weights)[:1]:
-        sway += np.minimum(np.abs(matrix), 1e6).sum(axis=0)
+    for matrix in known_matrices(skill, weights)[:1]:
+        begin = skill.function.bias
+        sway += np.minimum(np.abs(matrix[:, begin : begin + len(sway)]), 1e6).sum(axis=0)
     return sway
 
 

@@ -51,14 +51,14 @@ def is_known(skill: Skill, weights: Weights | None) -> bool:
     return skill.outputs == 0 or (not skill.function.opaque and (weights is not None or genes(skill) == 0))
 
 
-def perceptron_matrices(skill: Skill, weights: Weights | None) -> tuple[Singles, ...]:
+def known_matrices(skill: Skill, weights: Weights | None) -> tuple[Singles, ...]:
     """The matrices of its layers; none where it has nothing to learn, or was not taught."""
     return () if weights is None else matrices(weights, skill.function.layers(len(skill.inputs), skill.outputs))
 
 
 def sent_values(skill: Skill, weights: Weights | None, readings: Singles) -> Singles:
     """The values that a skill sends [rows, edges] before the clamp; NaN where a gate is closed and nothing is sent."""
-    outputs, layers = np.zeros((len(readings), skill.outputs), np.float32), perceptron_matrices(skill, weights)
+    outputs, layers = np.zeros((len(readings), skill.outputs), np.float32), known_matrices(skill, weights)
     found = np.empty((len(readings), len(skill.edges)), np.float32)
     with np.errstate(all="ignore"):
         if layers:

@@ -94,6 +94,7 @@ FLOAT64 = Terms(
     product=lambda values, matrix: values @ matrix.T,
     sigmoid=lambda values: 1 / (1 + np.exp(-values)),
     joined=lambda one, other: np.concatenate([one, other]),
+    biased=lambda values: np.insert(values, 0, 1.0, axis=-1),
 )
 
 

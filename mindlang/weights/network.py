@@ -1,4 +1,4 @@
-"""A skill that learns as other programs know it: a network of matrices without biases, in a file of safetensors."""
+"""A skill that learns as other programs know it: a network of matrices, in a file of safetensors."""
 
 import json
 from collections.abc import Mapping

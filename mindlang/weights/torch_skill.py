@@ -105,12 +105,21 @@ class ReturningClamp(Function):
         return torch.where(leads_on, torch.zeros_like(grad), grad)
 
 
-# In which a function says what it computes.
-TERMS = Terms(OrderedProduct.apply, RationalSigmoid.apply, lambda one, other: torch.cat([one, other], -1))
+def _joined(one: Tensor, other: Tensor) -> Tensor:
+    return torch.cat([one, other], -1)
+
+
+def _biased(values: Tensor) -> Tensor:
+    return _joined(values.new_ones(*values.shape[:-1], 1), values)
+
+
+TERMS = Terms(
+    OrderedProduct.apply, RationalSigmoid.apply, _joined, _biased
+)  # in which a function says what it computes
 
 
 class Layer(nn.Module):
-    """`weight` [values out, values in] without biases."""
+    """`weight` [values out, values in]; of one with a bias the first of these is 1."""
 
     def __init__(self, inputs: int, outputs: int) -> None:
         super().__init__()

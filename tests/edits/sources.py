@@ -21,12 +21,14 @@ LIKE = "GoHome"  # the skill that is like another, where there is one
 STEPS = "skill StepN is mlp where N is 1 to 3"  # a family, where there is one
 FUNCTIONS = (
     "mlp hidden 2",
-    "mlp hidden 1 width 4",
+    "mlp hidden 1 width 4 bias 1",
     "mlp",
     "elman",
-    "elman width 3",
+    "elman width 3 bias 1",
     "gru",
-    "gru width 3",
+    "gru width 3 bias 1",
+    "neat",
+    "neat most 2 links any bias 0",
     "procedure from own.by",
     "procedure from own.to",
 )
@@ -287,7 +289,7 @@ def _declarations(rng: Random) -> list[list[str]]:
     if rng.random() < 0.4 and not any(block[0].startswith("scene ") for block in blocks):  # which would part them
         alone = r"( (?:eye|inside|distance|light) of )(?:nest|dock)\b"
         blocks = [[re.sub(alone, r"\1nest or dock", block[0]), *block[1:]] for block in blocks]
-    learners = [skill for skill in skills if functions[skill].startswith(("mlp", "elman", "gru"))]
+    learners = [skill for skill in skills if functions[skill].startswith(("mlp", "elman", "gru", "neat"))]
     if learners and rng.random() < 0.4:
         blocks.append(_like(rng, next(block for block in blocks if block[0].startswith(f"skill {learners[0]} "))))
     if is_family := rng.random() < 0.3:

@@ -199,7 +199,7 @@ def test_the_first_sentence_about_an_edit_fits_the_list_of_commands(name: str) -
 BEFORE = {"inline": "extract", "unfreeze": "freeze", "unfold": "fold"}  # what undoes an edit needs one
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", sorted({*names()} - {"prune"}))  # of what was taught: test_growing.py
 def test_the_example_of_an_edit_works_on_the_shipped_files(
     name: str, mindc: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -56,21 +56,32 @@ def mind(text: str = MIND) -> Graph:
     return found.graph
 
 
-RECURRENT = {"elman": MIND, "gru": MIND.replace("is elman", "is gru")}
+RECURRENT = {
+    "elman": MIND,
+    "gru": MIND.replace("is elman", "is gru"),
+    "elman bias 1": MIND.replace("width 5", "width 5 bias 1"),
+    "gru bias 1": MIND.replace("is elman width 5", "is gru width 5 bias 1"),
+    "neat links any": MIND.replace("is elman width 5", "is neat most 5 links any"),
+}
 both = pytest.mark.parametrize("text", RECURRENT.values(), ids=RECURRENT)
 
 
+@pytest.mark.parametrize("bias", [0, 1])
 @pytest.mark.parametrize("function", [Mlp(hidden=2), Elman(width=5), Gru(width=5)], ids=["mlp", "elman", "gru"])
-def test_outputs_begin_about_a_half(function: NetworkFunction) -> None:
+def test_outputs_begin_about_a_half(function: NetworkFunction, bias: int) -> None:
+    function = replace(function, bias=bias)
     before, after = function.matrix_shapes(7, 3)[-1]
     last = function.draw(7, 3, 20, np.random.default_rng(1))[:, -before * after :].reshape(20, after, before)
-    np.testing.assert_allclose(last.sum(axis=2), 1, atol=1e-4)  # so that neurons of 1/2 make it 1/2
+    halves = last[..., bias:].sum(axis=2) / 2 + last[..., :bias].sum(axis=2)
+    np.testing.assert_allclose(halves, 1 / 2, atol=1e-4)  # where all neurons say 1/2
     assert last.std() > 1
 
 
 def drawn(graph: Graph, seed: int, count: int = 1) -> np.ndarray:
     skill = next(skill for skill in graph.skills if skill.name == "Roam")
-    return skill.function.draw(len(skill.inputs), skill.outputs, count, np.random.default_rng(seed))
+    rng = np.random.default_rng(seed)
+    genomes = skill.function.draw(len(skill.inputs), skill.outputs, count, rng)
+    return np.where(genomes == 0, rng.normal(0, 2, genomes.shape).astype(np.float32), genomes)  # all links of a neat
 
 
 def follow(rollout: Rollout, engine: Engine, seed: int, genome: np.ndarray | None = None) -> int:
@@ -93,9 +104,10 @@ def test_the_lanes_remember_as_the_engine_does(text: str, seed: int) -> None:
     assert follow(learning, Engine(Policy(graph, weights)), seed, weights["Roam"]) > 20
 
 
-@pytest.mark.parametrize("hidden", [0, 1, 2])
-def test_the_lanes_compute_every_hidden_layer_of_a_perceptron(hidden: int) -> None:
-    graph = mind(MIND.replace("is elman width 5", f"is mlp hidden {hidden}"))
+@pytest.mark.parametrize("bias", [0, 1])
+@pytest.mark.parametrize("hidden", ["mlp hidden 0", "mlp hidden 1", "mlp hidden 2", "neat most 5", "neat most 0"])
+def test_the_lanes_compute_every_hidden_layer_of_a_perceptron(hidden: str, bias: int) -> None:
+    graph = mind(MIND.replace("is elman width 5", f"is {hidden} bias {bias}"))
     weights = {"Roam": drawn(graph, 1)[0]}
     assert follow(Rollout(Policy(graph, weights), "World", "Top"), Engine(Policy(graph, weights)), 1) > 20
 
@@ -178,6 +190,30 @@ def test_its_width_and_its_weights() -> None:
     assert (Elman().derived, Elman(5).derived) == (("width",), ())
     assert Gru(5).genome_length(4, 2) == 3 * (4 + 5) * 5 + 5 * 2
     assert Gru().explicit(4, 2) == Gru(6)
+    assert Elman(5, bias=1).genome_length(4, 2) == (1 + 4 + 5) * 5 + (1 + 5) * 2
+
+
+def test_a_bias_is_what_an_input_of_one_adds() -> None:
+    """The first column of each matrix; an input that is always 1 says the same of the first layer."""
+    rng, inputs = np.random.default_rng(1), np.float32([0.3, 0.8])
+    own = Mlp(hidden=1, width=3, bias=1)
+    genome = own.draw(2, 2, 1, rng)[0]
+    into, out = genome[:9].reshape(3, 3), genome[9:].reshape(2, 4)
+    said = np.array(sigmoids(into.tolist(), [1.0, 0.3, 0.8]))
+    assert own.ready(2, 2, genome, {})(inputs) == pytest.approx(out[:, 0] + out[:, 1:] @ said, abs=1e-4)
+
+
+@pytest.mark.parametrize("now", [1, 0])
+def test_what_gets_a_bias_does_the_same_and_what_loses_one_does_not(now: int) -> None:
+    old, new = Mlp(2, 3, bias=1 - now), Mlp(2, 4, bias=now)
+    weights = old.draw(2, 2, 1, np.random.default_rng(1))[0]
+    wide = old.widened(weights, (2, 2), new, (3, 2))
+    if not now:
+        assert wide is None
+        return
+    assert wide is not None
+    one, other = old.ready(2, 2, weights, {}), new.ready(3, 2, wide, {})
+    assert np.array_equal(one(np.float32([0.3, 0.8])), other(np.float32([0.3, 0.8, 0.9])))
 
 
 def test_nothing_is_proved_of_what_remembers() -> None:

@@ -11,13 +11,14 @@ from mindrun.graph.weights import genes
 from mindrun.kinds.functions.function import Rule
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
+from mindrun.numbers.network import NOTHING
 
 from mindlang.proofs.interval import (
+    BOUNDS,
     SIGMOID_ERROR,
     Boxes,
     SentBounds,
     expression_bounds,
-    perceptron_bounds,
     sent_bounds,
 )
 from mindlang.proofs.trying import is_known, sent_values
@@ -26,6 +27,12 @@ from tests.minds import always, rule, skill
 SHARES = st.floats(0, 1, width=32)
 NUMBERS = st.sampled_from([0.25, 0.3, 0.5, 1.0, 2.0])
 SIDES = st.tuples(SHARES, SHARES).map(sorted)
+
+
+def perceptron_bounds(matrices: list[np.ndarray], low: np.ndarray, high: np.ndarray) -> np.ndarray:
+    """Bounds of the outputs of a perceptron of these matrices."""
+    found: np.ndarray = Mlp(len(matrices) - 1).forward(BOUNDS, matrices, np.array([low, high]), NOTHING)[0]
+    return found
 
 
 def box(*sides: tuple[float, float]) -> Boxes:

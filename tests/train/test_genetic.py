@@ -121,7 +121,9 @@ def test_who_wins_a_tournament_of_four() -> None:
 
 
 def test_a_child_has_each_weight_of_either_parent() -> None:
-    children = genetic.cross(np.zeros((100, 300), np.float32), np.ones((100, 300), np.float32), rng())
+    first = rng().random((100, 300)) < 0.5
+    parents = np.zeros((100, 300), np.float32), np.ones((100, 300), np.float32)
+    children = genetic.PLAIN.crossed(*parents, first, first[:, :1])
     assert set(np.unique(children)) == {0.0, 1.0}
     assert children.mean() == pytest.approx(0.5, abs=0.01)
     assert children.mean(axis=1).std() < 0.05

@@ -16,7 +16,8 @@ from mindlang.weights.network import SkillNetwork, Tensors, network_of, to_genom
 from tests.edits.taught import MIND, write_mind
 
 KINDS = {
-    kind: MIND.replace("skill Avoid is mlp hidden 2", f"skill Avoid is {kind}") for kind in ("mlp", "elman", "gru")
+    kind: MIND.replace("skill Avoid is mlp hidden 2", f"skill Avoid is {kind}")
+    for kind in ("mlp", "elman", "gru", "elman bias 1")
 }
 
 

@@ -28,7 +28,16 @@ from mindlang.weights.torch_skill import (  # noqa: E402
     Skill,
 )
 
-SHAPES = ("mlp hidden 0", "mlp hidden 1", "mlp hidden 2", "mlp hidden 3 width 9", "elman", "elman width 3", "gru")
+SHAPES = (
+    "mlp hidden 0",
+    "mlp hidden 1",
+    "mlp hidden 2",
+    "mlp hidden 3 width 9",
+    "elman",
+    "elman width 3",
+    "gru",
+    "gru bias 1",
+)
 
 
 def network(folder: Path, function: str) -> SkillNetwork:

@@ -26,7 +26,7 @@ from mindlang.compiler.resolve.worlds import RobotFacts
 from mindlang.compiler.syntax import Amount, Argument, Name, Needs, Phrase, Teaches, of_form
 
 if TYPE_CHECKING:
-    from mindrun.numbers.arrays import Layers
+    pass
 
 # Words that a lesson says beside the arguments of its learner.
 FROM, SCRATCH = "from", "scratch"
@@ -303,17 +303,14 @@ def _origin(written: Sequence[Argument]) -> Name | None:
 
 def _holds(learner: model.Skill, other: model.Skill, widths: Widths) -> bool:
     """True if the learner computes the other's function once some of its weights are 0: no layer of it is smaller."""
-    (own, its), (large, small) = zip(*(_sized(skill, widths) for skill in (learner, other)), strict=True)
-    if own == its:
-        return True
-    holds = all(a >= b for more, less in zip(large, small, strict=False) for a, b in zip(more, less, strict=True))
-    return type(own) is type(its) and 0 < len(large) == len(small) and holds
+    (own, size), (other_own, its) = (_sized(skill, widths) for skill in (learner, other))
+    return own == other_own or own.holds(size, other_own, its)
 
 
-def _sized(skill: model.Skill, widths: Widths) -> "tuple[Function, Layers]":
-    """A skill's function with every argument said, and the shapes of its weight matrices."""
+def _sized(skill: model.Skill, widths: Widths) -> "tuple[Function, tuple[int, int]]":
+    """A skill's function with every argument said, and how many inputs and outputs it has."""
     size = sum(widths.get(name, 1) for name in skill.reads), len(_sends(skill))
-    return skill.function.explicit(*size), skill.function.matrix_shapes(*size)
+    return skill.function.explicit(*size), size
 
 
 def _sends(skill: model.Skill) -> list[str]:

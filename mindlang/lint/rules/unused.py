@@ -1,6 +1,7 @@
 """What is declared and comes to nothing."""
 
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 
 from networkx import DiGraph
@@ -9,7 +10,10 @@ from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Contains, File, Reads, Tick, Use, of_form
 from mindlang.lint.study import Finding, Found, Study, readings, removal, rule
-from mindlang.lock import lock_path
+from mindlang.lock import LockError, lock_path
+from mindlang.lock.blobs import load_weights
+from mindlang.lock.signature import arrange
+from mindlang.lock.status import Trained, status
 
 
 @rule(elsewhere=True)
@@ -88,6 +92,26 @@ def unused_reading(study: Study) -> Found:
                 message = f"{skill.name} reads {fact.name.text}, but no value of it depends on that."
                 hint = f"Use {fact.name.text} in a value after at, or take the line out."
                 yield Finding(fact.span, message, hint, fix=removal(fact))
+    yield from _unlinked(study)
+
+
+def _unlinked(study: Study) -> Found:
+    """What a skill reads whose network was taught, and no link leads from."""
+    graph, states = arrange(study.graph, study.lock), status(study.graph, study.lock)
+    places = {each.name: range(each.start, each.start + each.width) for each in graph.sensors}
+    places |= {each.name: range(each.start, each.start + 1) for each in graph.memories}
+    for skill in (each for each in graph.skills if each.function.grows and not each.like):
+        state, unread = states[skill.name], set[int]()
+        if isinstance(state, Trained):
+            with suppress(LockError):
+                unread = {
+                    skill.inputs[n] for n in skill.function.unread(load_weights(state.entry, skill), skill.outputs)
+                }
+        for fact in of_form(study.skills[skill.name].declaration.facts, Reads):
+            if unread.issuperset(places[fact.name.text]):
+                edit = study.main.edit("disconnect", skill.name, fact.name.text, "--keep-weights")
+                message = f"{skill.name} reads {fact.name.text}, and no link that it has learnt leads from there."
+                yield Finding(fact.span, message, f"{edit} takes the line out, and leaves what was learnt.")
 
 
 @rule(elsewhere=True)

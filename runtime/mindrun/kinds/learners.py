@@ -15,6 +15,7 @@ Rungs = Annotated[int, Quantity("a whole number up to 16", {"": 1.0}, low=0, hig
 SHARE = Quantity("a share above 0 up to 1", {"": 1.0, "%": 0.01}, low=0.001, high=1.0)
 Share = Annotated[float, SHARE]
 Founders = Annotated[int, Quantity("a whole number", {"": 1.0}, low=0, high=100_000, whole=True)]
+Species = Annotated[int, Quantity("a whole number", {"": 1.0}, low=0, high=100, whole=True)]
 FEW_CHILDREN = 0.1  # of a population that is bred anew
 NEAR_WEIGHT = 0.01  # so near to another a weight does as that does
 Population = Annotated[int, Quantity("a whole number of at least 4", {"": 1.0}, low=4, high=100_000, whole=True)]
@@ -36,6 +37,8 @@ class Genetic:
     and `keeps` a share of what these scored has failed where one of them has less, on the same fresh layouts before and
     after. With `lowest` the score of a genome is the mean of that share of its layouts, those on which it does worst:
     of 8 layouts, 25% are the worst two, 1% the worst one; so it is wherever genomes of the lesson are compared.
+    With `species` genomes that are alike compete with each other first, in about so many groups. Of the children a
+    share `grow` gets a neuron, `link` a link and `drop` loses one, where the function is a `neat`.
     A lesson may say any of these for itself.
     """
 
@@ -52,6 +55,10 @@ class Genetic:
     short: Share = 1.0
     keeps: Ratio = 0.0
     lowest: Share = left_out(1.0)
+    species: Species = left_out(0)
+    grow: Ratio = left_out(0.03)
+    link: Ratio = left_out(0.1)
+    drop: Ratio = left_out(0.02)
 
     def standstill(self, weights: int, generations: int) -> str:
         """A sentence on why so many generations find nothing beyond the first genomes; empty if they may."""

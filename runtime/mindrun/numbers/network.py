@@ -38,6 +38,7 @@ class Terms(NamedTuple):
     product: Callable[[Any, Any], Any]  # of values and a matrix [values out, values in]: the sums, from the first on
     sigmoid: Callable[[Any], Any]
     joined: Callable[[Any, Any], Any]  # the values of two side by side
+    biased: Callable[[Any], Any]  # 1 before the values
 
 
 def product(values: Matrix, matrix: Matrix) -> Matrix:
@@ -56,7 +57,11 @@ def _joined(one: Matrix, other: Matrix) -> Matrix:
     return np.concatenate([one, other], axis=-1)
 
 
-FLOAT32 = Terms(product, sigmoid, _joined)
+def _biased(values: Matrix) -> Matrix:
+    return _joined(np.ones((*values.shape[:-1], 1), values.dtype), values)
+
+
+FLOAT32 = Terms(product, sigmoid, _joined, _biased)
 NOTHING = np.zeros(0, np.float32)
 Forward = Callable[[Terms, Sequence[Any], Any, Any], tuple[Any, Any]]
 

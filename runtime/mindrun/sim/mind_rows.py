@@ -88,7 +88,7 @@ def skill_rows(
             row, further = _scopes(edge, scopes, len(numbers))
             edges.append({**_edge(graph, edge, codes), **row, "scoped": len(inputs)})
             inputs.extend(further)
-        most_inputs = max(most_inputs, count + remembered)
+        most_inputs = max(most_inputs, function.gathered(count, outputs))
         scratch = max(scratch, function.scratch(count, outputs))
         state += remembered
     tables = {"skills": records(rows, SKILL), "edges": records(edges, EDGE), "inputs": np.array(inputs, np.int64)}

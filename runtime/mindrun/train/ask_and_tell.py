@@ -9,13 +9,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.kinds.learners import Genetic, Learner
+from mindrun.train.heredity import Heredity
 from mindrun.train.population import Draw, Genomes, Population, Scores, bounded, founder_count, order, worst_if_nan
+from mindrun.train.species import choose_parents, species_of
 
+PLAIN = Heredity()
 TOURNAMENT_SIZE = 4
 GENOMES_PER_PARENT = 4  # of an evolution strategy: one genome in so many has a say in where the centre goes
 
 
-def ask(population: Population, learner: Learner, start: Genomes, draw: Draw, rng: np.random.Generator) -> Genomes:
+def ask(
+    population: Population,
+    learner: Learner,
+    start: Genomes,
+    draw: Draw,
+    rng: np.random.Generator,
+    of: Heredity = PLAIN,
+) -> Genomes:
     """The genomes [individuals, weights] to score next: the founders, then generations of `learner.population`.
 
     `start` [0 or 1, weights] is what the skill knows, and the first to be bred are that and mutated copies of it; where
@@ -24,13 +34,10 @@ def ask(population: Population, learner: Learner, start: Genomes, draw: Draw, rn
     if population.generation == 0 and not len(start):
         return bounded(draw(founder_count(learner), rng))
     if isinstance(learner, Genetic):
-        if population.generation:
-            return breed(population, learner, rng)
-        copies = np.repeat(start, learner.population - 1, axis=0)
-        return bounded(np.concatenate([start, mutate(copies, learner, rng)]))
+        return breed(population, learner, rng, of) if population.generation else variants(start, learner, rng, of)
     centre = _centre(population, start)
     steps = rng.standard_normal((learner.population, centre.shape[1]), np.float32)
-    return bounded(centre + np.float32(learner.mutation) * steps)
+    return bounded(of.moved(centre, np.float32(learner.mutation) * steps))
 
 
 def tell(population: Population, learner: Learner, start: Genomes, genomes: Genomes, scores: Scores) -> Population:
@@ -49,14 +56,27 @@ def kept_count(learner: Learner) -> int:
     return learner.population if isinstance(learner, Genetic) else 1
 
 
-def breed(population: Population, learner: Genetic, rng: np.random.Generator) -> Genomes:
-    """The elite unchanged, then children of two chosen parents each, mutated."""
+def variants(start: Genomes, learner: Genetic, rng: np.random.Generator, of: Heredity = PLAIN) -> Genomes:
+    """The first genomes [individuals, weights]: what the skill knows, `start` [1, weights], and mutated copies."""
+    copies = np.repeat(start, learner.population - 1, axis=0)
+    return bounded(np.concatenate([start, mutate(copies, learner, rng, of)]))
+
+
+def breed(population: Population, learner: Genetic, rng: np.random.Generator, of: Heredity = PLAIN) -> Genomes:
+    """The elite unchanged, of species their leaders, then children of two chosen parents each, mutated."""
     ranked = population.genomes[order(population.scores)]
     elite = min(max(1, round(learner.elite * len(ranked))), len(ranked) - 1)
     children = learner.population - elite
-    mothers, fathers = choose(len(ranked), children, rng), choose(len(ranked), children, rng)
-    mixed = cross(ranked[mothers], ranked[fathers], rng)
-    return bounded(np.concatenate([ranked[:elite], mutate(mixed, learner, rng)]))
+    kept = np.arange(elite)
+    if learner.species:
+        leaders, species = species_of(ranked, learner.species, of.distance)
+        kept = np.concatenate([leaders, np.setdiff1d(kept, leaders)])[:elite]
+        mothers, fathers = choose_parents(species, TOURNAMENT_SIZE, children, rng)
+    else:
+        mothers, fathers = choose(len(ranked), children, rng), choose(len(ranked), children, rng)
+    first = rng.random((children, ranked.shape[1]), np.float32) < 0.5
+    mixed = of.crossed(ranked[mothers], ranked[fathers], first, (mothers <= fathers)[:, None])
+    return bounded(np.concatenate([ranked[kept], mutate(mixed, learner, rng, of)]))
 
 
 def choose(individuals: int, count: int, rng: np.random.Generator) -> NDArray[np.intp]:
@@ -65,13 +85,8 @@ def choose(individuals: int, count: int, rng: np.random.Generator) -> NDArray[np
     return winners
 
 
-def cross(mothers: Genomes, fathers: Genomes, rng: np.random.Generator) -> Genomes:
-    """Children [individuals, weights] that take each weight from either parent."""
-    return np.where(rng.random(mothers.shape, np.float32) < 0.5, mothers, fathers)
-
-
-def mutate(genomes: Genomes, learner: Genetic, rng: np.random.Generator) -> Genomes:
-    """The genomes with a share `mutated` of their weights moved by a normal step of spread `mutation`.
+def mutate(genomes: Genomes, learner: Genetic, rng: np.random.Generator, of: Heredity = PLAIN) -> Genomes:
+    """The genomes with a share `mutated` of their weights moved by a normal step of spread `mutation`, some grown.
 
     With `octaves` each genome has a share and a spread of its own: these times a power of two.
     """
@@ -81,7 +96,7 @@ def mutate(genomes: Genomes, learner: Genetic, rng: np.random.Generator) -> Geno
         share, spread = np.ldexp((share, spread), powers)
     hit = rng.random(genomes.shape, np.float32) < share
     step = spread * rng.standard_normal(genomes.shape, np.float32)
-    return genomes + np.where(hit, step, np.float32(0))
+    return of.grown(of.moved(genomes, np.where(hit, step, np.float32(0))), learner, rng)
 
 
 def _tell_strategy(population: Population, genomes: Genomes, scores: Scores, start: Genomes) -> Population:

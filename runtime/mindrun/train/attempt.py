@@ -16,6 +16,7 @@ from mindrun.graph.run_scores import Scores as RunScores
 from mindrun.graph.weights import Weights
 from mindrun.kinds.learners import Learner, run_lengths
 from mindrun.train.ask_and_tell import ask, kept_count, tell
+from mindrun.train.heredity import heredity_of
 from mindrun.train.lesson_state import AttemptState, Course, Record, Verdict, rung_at
 from mindrun.train.population import Scores, order
 from mindrun.train.scoring import (
@@ -91,7 +92,8 @@ def generation(course: Course, scorer: Scorer, number: int, state: AttemptState)
     """One generation of attempt `number`: bred, scored, and every now and then its best tried on fresh layouts."""
     lesson, learner = course.lesson, course.lesson.learner
     key = course.seed, number, state.population.generation
-    genomes = ask(state.population, learner, course.start, scorer.draw, breeding_generator(*key))
+    rng = breeding_generator(*key)
+    genomes = ask(state.population, learner, course.start, scorer.draw, rng, heredity_of(scorer))
     ticks = run_ticks(lesson, scorer.task, state.population.generation)
     seeds = with_hard(layouts(*key, learner.layouts), lesson.hard, *key)
     marks = mark(scorer, genomes, seeds, learner.lowest, ticks)

@@ -81,6 +81,7 @@ class WrappedScorer:
         self.task: Task = scorer.task
         self.genome_length: int = scorer.genome_length
         self.is_one_world = is_one_world(scorer)
+        self.learners = getattr(scorer, "learners", ())
         self.draw: Callable[[int, np.random.Generator], Genomes] = scorer.draw
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from mindrun.kinds.functions.function import NetworkFunction, Width
+from mindrun.kinds.functions.function import Bias, NetworkFunction, Width
 from mindrun.kinds.functions.mlp import layer
-from mindrun.kinds.registry import kind
+from mindrun.kinds.registry import kind, left_out
 
 if TYPE_CHECKING:  # a lane is given its terms when it is compiled
     from mindrun.numbers.arithmetic import *
@@ -17,13 +17,14 @@ if TYPE_CHECKING:  # a lane is given its terms when it is compiled
 
 @kind("skill", "elman")
 class Elman(NetworkFunction):
-    """A recurrent network with one hidden layer of `width` neurons (0: Eq. 5, max(inputs, outputs) + 2), no biases.
+    """A recurrent network with one hidden layer of `width` neurons (0: Eq. 5, max(inputs, outputs) + 2).
 
     Its neurons read the skill's inputs and what they all said when the skill last computed, 0 at the beginning of a
     run. A skill without influence does not compute, and remembers.
     """
 
     width: Width = 0
+    bias: Bias = left_out(0)
 
     opaque = "remembers what it computed"
 
@@ -32,13 +33,17 @@ class Elman(NetworkFunction):
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
         width = self.neurons(inputs, outputs)
-        return ((inputs + width, width), (width, outputs)) if width else ()
+        b = self.bias
+        return ((b + inputs + width, width), (b + width, outputs)) if width else ()
 
     def forward(self, of: Terms, matrices: Sequence[Any], inputs: Any, state: Any) -> tuple[Any, Any]:
-        """h' = σ(H·[x, h]), and the outputs O·h'; h are the hidden neurons' last outputs, h' the new state."""
+        """h' = σ(H·[x, h]), and the outputs O·h'; h are the hidden neurons' last outputs, h' the new state.
+
+        With a bias, of both matrices the first column is added.
+        """
         hidden, last = matrices
-        said = of.sigmoid(of.product(of.joined(inputs, state), hidden))
-        return of.product(said, last), said
+        said = of.sigmoid(of.product(self.read(of, of.joined(inputs, state)), hidden))
+        return of.product(self.read(of, said), last), said
 
     def scratch(self, inputs: int, outputs: int) -> int:
         return self.neurons(inputs, outputs) + outputs

@@ -12,11 +12,13 @@ from mindrun.numbers.quantity import Quantity
 if TYPE_CHECKING:
     import numpy as np
 
+    from mindrun.kinds.learners import Genetic
     from mindrun.kinds.procedure_text import Sources
-    from mindrun.numbers.arrays import Compute, Layers, Weights
+    from mindrun.numbers.arrays import Bools, Compute, Doubles, Layers, Weights
     from mindrun.numbers.network import Terms
 
 Width = Annotated[int, Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)]
+Bias = Annotated[int, Quantity("a whole number", {"": 1.0}, low=0, high=1, whole=True)]
 # Of the weights that learning begins with, 4: without biases, small weights leave every sigmoid near 1/2. Tried on a
 # stand-in for GoToObject, 6 seeds each, until 17 targets: with 1 one seed got there in 100 M ticks, with 2 all by the
 # 10th generation, with 4 five in the first; 6 (until 22 targets) was no better than 4.
@@ -41,6 +43,8 @@ class Function:
 
     learns = False
     has_outputs = True  # whether edges without `at` can send one
+    grows = False  # whether it learns which of its inputs it reads, too
+    bias = 0  # 1 if each of its matrices has a first column that reads 1
     opaque = ""  # why nothing can be proved of its outputs, even with its weights
     calls: str | None = None  # the Python function whose text belongs to the mind, `module.function`, if it calls one
     derived: tuple[str, ...] = ()  # arguments that nobody said and that follow from what its skill reads and sends
@@ -50,7 +54,7 @@ class Function:
         return self
 
     def layers(self, inputs: int, outputs: int) -> Layers:
-        """The layers of a feed-forward network without biases; none where it is something else."""
+        """The layers of a feed-forward network; none where it is something else."""
         return () if self.opaque else self.matrix_shapes(inputs, outputs)
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
@@ -69,19 +73,23 @@ class Function:
         return 0
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
-        """The kind's own columns of the lanes' table of skills: `hidden` and `width`."""
+        """The kind's own columns of the lanes' table of skills: `hidden`, `width` and `bias`."""
         return {}
 
     def scratch(self, inputs: int, outputs: int) -> int:
         """The number of rows of `s.hidden` that its lane function writes, its outputs among them."""
         return outputs
 
+    def gathered(self, inputs: int, outputs: int) -> int:
+        """The number of rows of `s.gathered` that its lane function reads or writes, its inputs the first of them."""
+        return inputs + self.state_length(inputs, outputs)
+
     @staticmethod
     def lane(t: Any, s: Any, skill: Any, n: int) -> int:
         """Write its outputs in n simulated worlds into rows of `s.hidden`; return the first of these rows.
 
         Compiled, in the terms of `numbers.arithmetic`, which it is given then. The inputs stand in `s.gathered`, with
-        as many rows behind them as it remembers; the weights from `skill.weights` on (`mlp.layer` takes them where they
+        room behind them; the weights from `skill.weights` on (`mlp.layer` takes them where they
         are). World number k is lane `s.active[k]`; what it remembers stands in `s.recurrent` from `skill.state` on.
         """
         return 0
@@ -95,6 +103,57 @@ class Function:
         import numpy as np
 
         return np.empty((count, 0), np.float32)
+
+    def grown(self, genomes: Weights, outputs: int, rates: Genetic, rng: np.random.Generator) -> Weights:
+        """The genomes [individuals, weights], some of them with other links, as often as `rates` say."""
+        return genomes
+
+    def crossed(self, mothers: Weights, fathers: Weights, first: Bools, better: Bools) -> Weights:
+        """Children [individuals, weights], each weight that of the mother where `first` says so, else of the father.
+
+        `better` [individuals, 1] says of each mother whether she did better than the father.
+        """
+        import numpy as np
+
+        return np.where(first, mothers, fathers)
+
+    def moved(self, genomes: Weights, steps: Weights) -> Weights:
+        """The genomes [individuals, weights], moved by steps where they may be."""
+        return genomes + steps
+
+    def distance(self, genomes: Weights, one: Weights) -> Doubles:
+        """How far genomes [individuals, weights] are from one: [individuals]; 0 where they are the same."""
+        import numpy as np
+
+        return np.asarray(np.abs(genomes - one).sum(axis=1), np.float64)
+
+    def summary(self, weights: Weights, outputs: int) -> str:
+        """What a status says of its weights; mostly nothing."""
+        return ""
+
+    def narrowed(self, weights: Weights, outputs: int, kept: Sequence[int]) -> Weights | None:
+        """Weights with which it does the same with these of its inputs alone; None where the others matter."""
+        return None
+
+    def unread(self, weights: Weights, outputs: int) -> list[int]:
+        """The inputs, by their places, that no link leads from, of a function that `grows`."""
+        return []
+
+    def pruned(self, weights: Weights, outputs: int) -> Function:
+        """The function without what leads nowhere with these weights: it does the same."""
+        return self
+
+    def neurons_as_links(self, inputs: int, outputs: int) -> int | None:
+        """How many neurons a network of single links needs to do the same; None where it cannot."""
+        return None
+
+    def recast(self, weights: Weights, size: tuple[int, int], of: Function) -> Weights | None:
+        """Weights with which it does what another function of its size (inputs, outputs) does with these, if it can."""
+        return None
+
+    def holds(self, size: tuple[int, int], other: Function, its: tuple[int, int]) -> bool:
+        """True if of `size` (inputs, outputs) it does what another of its size does, once some weights are 0."""
+        return False
 
     def widened(self, weights: Weights, before: tuple[int, int], now: Self, after: tuple[int, int]) -> Weights | None:
         """Weights with which `now`, of more inputs or outputs, does the same, 0 for what is new; None if it cannot."""
@@ -112,9 +171,10 @@ class Function:
 
 
 class NetworkFunction(Function):
-    """A network of matrices without biases, with neurons of a `width` (0: Eq. 5, max(inputs, outputs) + 2).
+    """A network of matrices with neurons of a `width` (0: Eq. 5, max(inputs, outputs) + 2).
 
-    Without inputs or outputs it has no matrices. Its last one gives the outputs.
+    Without inputs or outputs it has no matrices. Its last one gives the outputs. With `bias 1` each matrix has one more
+    column, the first: what it reads there is always 1.
     """
 
     __slots__ = ()
@@ -138,7 +198,11 @@ class NetworkFunction(Function):
         return replace(self, width=self.neurons(inputs, outputs))  # type: ignore[type-var]
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
-        return {"width": self.neurons(inputs, outputs)}
+        return {"width": self.neurons(inputs, outputs), "bias": self.bias if inputs and outputs else 0}
+
+    def read(self, of: Terms, values: Any) -> Any:
+        """The values [..., values] that a matrix reads: with a bias 1 before them."""
+        return of.biased(values) if self.bias else values
 
     def draw(self, inputs: int, outputs: int, count: int, rng: np.random.Generator) -> Weights:
         """Random genomes [count, weights] whose outputs are 1/2 where all neurons say 1/2."""
@@ -147,22 +211,37 @@ class NetworkFunction(Function):
         genomes = INITIAL_SPREAD * rng.standard_normal((count, self.genome_length(inputs, outputs)), np.float32)
         for before, after in self.matrix_shapes(inputs, outputs)[-1:]:
             last = genomes[:, -before * after :].reshape(count, after, before)
-            last += (1 - last.sum(axis=2, keepdims=True)) / before
+            if self.bias:
+                last[..., 0] = (1 - last[..., 1:].sum(axis=2)) / 2
+            else:
+                last += (1 - last.sum(axis=2, keepdims=True)) / before
         return genomes
+
+    def holds(self, size: tuple[int, int], other: Function, its: tuple[int, int]) -> bool:
+        large, small = self.matrix_shapes(*size), other.matrix_shapes(*its)
+        return (
+            type(self) is type(other)
+            and 0 < len(large) == len(small)
+            and all(a >= b and c >= d for (a, c), (b, d) in zip(large, small, strict=True))
+            and size[0] >= its[0]
+            and self.state_length(*size) >= other.state_length(*its)
+            and self.bias >= other.bias
+        )
 
     def widened(
         self, weights: Weights, before: tuple[int, int], now: Function, after: tuple[int, int]
     ) -> Weights | None:
+        import numpy as np
+
         from mindrun.numbers.network import genome, matrices, padded
 
+        if not now.holds(after, self, before):
+            return None
         small, large = self.matrix_shapes(*before), now.matrix_shapes(*after)
-        if len(small) != len(large) or any(a < b or c < d for (a, c), (b, d) in zip(large, small, strict=True)):
-            return None
-        if after[0] < before[0] or now.state_length(*after) < self.state_length(*before):
-            return None
-        found = matrices(weights, small)
-        cuts = [before[0] if number < self.readers else shape[0] for number, shape in enumerate(small)]
-        places = [after[0] if number < self.readers else shape[0] for number, shape in enumerate(large)]
+        bias, new = now.bias, now.bias - self.bias
+        found = (np.pad(matrix, ((0, 0), (new, 0))) for matrix in matrices(weights, small))
+        cuts = [bias + before[0] if number < self.readers else shape[0] + new for number, shape in enumerate(small)]
+        places = [bias + after[0] if number < self.readers else shape[0] for number, shape in enumerate(large)]
         return genome(map(padded, found, large, cuts, places))
 
     def reordered(self, weights: Weights, inputs: Sequence[int], outputs: Sequence[int]) -> Weights:
@@ -173,7 +252,9 @@ class NetworkFunction(Function):
             return weights
         found = list(matrices(weights, shapes))
         for number, (columns, _) in enumerate(shapes[: self.readers]):
-            found[number] = found[number][:, [*inputs, *range(len(inputs), columns)]]
+            moved = [self.bias + place for place in inputs]
+            rest = range(self.bias + len(inputs), columns)
+            found[number] = found[number][:, [*range(self.bias), *moved, *rest]]
         found[-1] = found[-1][list(outputs)]
         return genome(found)
 

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from mindrun.kinds.functions.elman import recall, remember
-from mindrun.kinds.functions.function import NetworkFunction, Width
+from mindrun.kinds.functions.function import Bias, NetworkFunction, Width
 from mindrun.kinds.functions.mlp import layer
-from mindrun.kinds.registry import kind
+from mindrun.kinds.registry import kind, left_out
 
 if TYPE_CHECKING:  # a lane is given its terms when it is compiled
     from mindrun.numbers.arithmetic import *
@@ -18,7 +18,7 @@ if TYPE_CHECKING:  # a lane is given its terms when it is compiled
 
 @kind("skill", "gru")
 class Gru(NetworkFunction):
-    """A gated recurrent unit with `width` neurons (0: Eq. 5, max(inputs, outputs) + 2), without biases.
+    """A gated recurrent unit with `width` neurons (0: Eq. 5, max(inputs, outputs) + 2).
 
     Each neuron keeps a share of what it said when the skill last computed, as its update gate says, and takes the rest
     from a candidate. Gates and candidate are sigmoids of the skill's inputs and of what all neurons said, 0 at the
@@ -27,6 +27,7 @@ class Gru(NetworkFunction):
     """
 
     width: Width = 0
+    bias: Bias = left_out(0)
 
     opaque = "remembers what it computed"
     readers = 3
@@ -36,16 +37,20 @@ class Gru(NetworkFunction):
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
         width = self.neurons(inputs, outputs)
-        return (*[(inputs + width, width)] * 3, (width, outputs)) if width else ()
+        b = self.bias
+        return (*[(b + inputs + width, width)] * 3, (b + width, outputs)) if width else ()
 
     def forward(self, of: Terms, matrices: Sequence[Any], inputs: Any, state: Any) -> tuple[Any, Any]:
-        """r, u = σ(R·[x, s]), σ(U·[x, s]); c = σ(C·[x, r·s]); s' = u·s + (1 − u)·c, and the outputs O·s'."""
+        """r, u = σ(R·[x, s]), σ(U·[x, s]); c = σ(C·[x, r·s]); s' = u·s + (1 − u)·c, and the outputs O·s'.
+
+        With a bias, of each matrix the first column is added.
+        """
         reset, update, candidate, last = matrices
-        both = of.joined(inputs, state)
+        both = self.read(of, of.joined(inputs, state))
         through, kept = of.sigmoid(of.product(both, reset)), of.sigmoid(of.product(both, update))
-        new = of.sigmoid(of.product(of.joined(inputs, through * state), candidate))
+        new = of.sigmoid(of.product(self.read(of, of.joined(inputs, through * state)), candidate))
         said = kept * state + (1 - kept) * new
-        return of.product(said, last), said
+        return of.product(self.read(of, said), last), said
 
     def scratch(self, inputs: int, outputs: int) -> int:
         return 3 * self.neurons(inputs, outputs) + outputs

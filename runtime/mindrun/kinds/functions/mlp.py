@@ -1,4 +1,4 @@
-"""The multi-layer perceptron of the paper (4.1): no biases, sigmoid hidden layers, a linear last layer in 0..1."""
+"""The multi-layer perceptron of the paper (4.1): sigmoid hidden layers, a linear last layer in 0..1."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.kinds.functions.function import NetworkFunction, Width
-from mindrun.kinds.registry import kind
+from mindrun.kinds.functions.function import Bias, NetworkFunction, Width
+from mindrun.kinds.registry import kind, left_out
 from mindrun.numbers.quantity import Quantity
 
 if TYPE_CHECKING:  # a lane is given its terms when it is compiled
@@ -20,25 +20,33 @@ HIDDEN = Quantity("a whole number", {"": 1.0}, low=0, high=16, whole=True)
 
 @kind("skill", "mlp")
 class Mlp(NetworkFunction):
-    """A perceptron with `hidden` layers of `width` neurons (0: Eq. 5, max(inputs, outputs) + 2)."""
+    """A perceptron with `hidden` layers of `width` neurons (0: Eq. 5, max(inputs, outputs) + 2).
+
+    The paper's has no biases. With `bias 1` each layer has one more input, which is always 1.
+    """
 
     hidden: Annotated[int, HIDDEN] = 2
     width: Width = 0
+    bias: Bias = left_out(0)
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
         widths = [self.neurons(inputs, outputs)] * self.hidden
-        return tuple(pairwise((inputs, *widths, outputs))) if inputs and outputs else ()
+        sizes = pairwise((inputs, *widths, outputs)) if inputs and outputs else ()
+        return tuple((before + self.bias, after) for before, after in sizes)
+
+    def neurons_as_links(self, inputs: int, outputs: int) -> int | None:
+        return self.hidden * self.neurons(inputs, outputs)
 
     def forward(self, of: Terms, matrices: Sequence[Any], inputs: Any, state: Any) -> tuple[Any, Any]:
         *hidden, last = matrices
         values = inputs
         for matrix in hidden:
-            values = of.sigmoid(of.product(values, matrix))
-        return of.product(values, last), state
+            values = of.sigmoid(of.product(self.read(of, values), matrix))
+        return of.product(self.read(of, values), last), state
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
         shapes = self.matrix_shapes(inputs, outputs)
-        return {"hidden": self.hidden, "width": shapes[0][1]} if len(shapes) > 1 else {}
+        return {"hidden": len(shapes) - 1, "width": shapes[0][1], "bias": self.bias} if shapes else {}
 
     def scratch(self, inputs: int, outputs: int) -> int:
         return 2 * max(self.neurons(inputs, outputs) if self.hidden else 0, outputs)
@@ -67,37 +75,45 @@ def layer(
     The sigmoids of the sums, or the sums where it is the `last` layer. The weights are each lane's own, or all lanes'.
     """
     if skill.own:
-        dense(s.genome[place:], source, inputs, target, outputs, last, n)
+        dense(s.genome[place:], source, inputs, skill.bias, target, outputs, last, n)
     else:
-        dense(t.weights[place:], source, inputs, target, outputs, last, n)
-    return place + inputs * outputs
+        dense(t.weights[place:], source, inputs, skill.bias, target, outputs, last, n)
+    return place + (inputs + skill.bias) * outputs
 
 
-def dense(w: Any, source: Any, inputs: int, target: Any, outputs: int, last: bool, n: int) -> None:
-    """target[q] = Σ weight · source[j], summed in the order of j; then the sigmoid, but for the last layer.
+def dense(w: Any, source: Any, inputs: int, bias: int, target: Any, outputs: int, last: bool, n: int) -> None:
+    """target[q] = bias + Σ weight · source[j], summed in the order of j; then the sigmoid, but for the last layer.
 
-    Sixteen lanes and four outputs at a time, then two and one. The weights stand output after output: w is flat, or
-    [weight, lane].
+    Sixteen lanes and four outputs at a time, then two and one. The weights stand output after output, each begins with
+    its bias, if there is one: w is flat, or [weight, lane].
     """
     for p in range(0, n, LANES):
         for q in range(0, outputs - 3, 4):
-            four(w, source, inputs, target, q, last, p)
+            four(w, source, inputs, bias, target, q, last, p)
         if outputs & 2:
-            two(w, source, inputs, target, outputs // 4 * 4, last, p)
+            two(w, source, inputs, bias, target, outputs // 4 * 4, last, p)
         if outputs & 1:
-            one(w, source, inputs, target, outputs - 1, last, p)
+            one(w, source, inputs, bias, target, outputs - 1, last, p)
 
 
-def four(w: Any, source: Any, inputs: int, target: Any, q: int, last: bool, p: int) -> None:
+def begun(w: Any, place: int, bias: int, p: int) -> Any:
+    """The beginning of a sum: its bias, 0 without one."""
+    return load(w, place, p) if bias else splat(ZERO)
+
+
+def four(w: Any, source: Any, inputs: int, bias: int, target: Any, q: int, last: bool, p: int) -> None:
     """Compute the outputs q to q + 3 in the lanes from p on."""
-    a, b, c, d = splat(ZERO), splat(ZERO), splat(ZERO), splat(ZERO)
-    first = q * inputs
+    each = inputs + bias
+    first = q * each
+    a, b = begun(w, first, bias, p), begun(w, first + each, bias, p)
+    c, d = begun(w, first + 2 * each, bias, p), begun(w, first + 3 * each, bias, p)
+    first += bias
     for j in range(inputs):
         x = load(source, j, p)
         a = a + load(w, first + j, p) * x
-        b = b + load(w, first + inputs + j, p) * x
-        c = c + load(w, first + 2 * inputs + j, p) * x
-        d = d + load(w, first + 3 * inputs + j, p) * x
+        b = b + load(w, first + each + j, p) * x
+        c = c + load(w, first + 2 * each + j, p) * x
+        d = d + load(w, first + 3 * each + j, p) * x
     if not last:
         a, b, c, d = sigmoids(a, b, c, d)
     store(target, q, p, a)
@@ -106,25 +122,28 @@ def four(w: Any, source: Any, inputs: int, target: Any, q: int, last: bool, p: i
     store(target, q + 3, p, d)
 
 
-def two(w: Any, source: Any, inputs: int, target: Any, q: int, last: bool, p: int) -> None:
+def two(w: Any, source: Any, inputs: int, bias: int, target: Any, q: int, last: bool, p: int) -> None:
     """Compute the outputs q and q + 1 in the lanes from p on."""
-    a, b = splat(ZERO), splat(ZERO)
-    first = q * inputs
+    each = inputs + bias
+    first = q * each
+    a, b = begun(w, first, bias, p), begun(w, first + each, bias, p)
+    first += bias
     for j in range(inputs):
         x = load(source, j, p)
         a = a + load(w, first + j, p) * x
-        b = b + load(w, first + inputs + j, p) * x
+        b = b + load(w, first + each + j, p) * x
     if not last:
         a, b = sigmoids(a, b)
     store(target, q, p, a)
     store(target, q + 1, p, b)
 
 
-def one(w: Any, source: Any, inputs: int, target: Any, q: int, last: bool, p: int) -> None:
+def one(w: Any, source: Any, inputs: int, bias: int, target: Any, q: int, last: bool, p: int) -> None:
     """Compute output q in the lanes from p on."""
-    a = splat(ZERO)
+    first = q * (inputs + bias)
+    a = begun(w, first, bias, p)
     for j in range(inputs):
-        a = a + load(w, q * inputs + j, p) * load(source, j, p)
+        a = a + load(w, first + bias + j, p) * load(source, j, p)
     if not last:
         (a,) = sigmoids(a)
     store(target, q, p, a)

@@ -1,0 +1,91 @@
+"""A perceptron becomes a network that grows and does the same to the bit, and one that has grown is pruned."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from mindrun.files.npy import to_npy
+from mindrun.kinds.functions.mlp import Mlp
+from mindrun.kinds.functions.neat import Neat
+
+from mindlang.compiler.compile import load
+from mindlang.editing.project import EditError
+from mindlang.lint.lint import lint
+from mindlang.lock import lock_path, read_lock, write_lock
+from mindlang.lock.blobs import blob, digest
+from mindlang.lock.status import Trained
+from tests.edits.taught import MIND, statuses, teach, write_mind
+from tests.edits.test_weights import commands, made, some_readings
+
+ROWS = np.random.default_rng(1).random((30, 3)).astype(np.float32)
+
+
+@given(st.integers(0, 3), st.sampled_from([0, 1, 4]), st.integers(0, 1), st.integers(0, 2**32 - 1))
+def test_it_does_what_the_perceptron_did(hidden: int, width: int, bias: int, seed: int) -> None:
+    old = Mlp(hidden, width, bias)
+    new = Neat(hidden * old.neurons(3, 2))
+    weights = np.random.default_rng(seed).normal(0, 3, old.genome_length(3, 2)).astype(np.float32)
+    grown = new.recast(weights, (3, 2), old)
+    assert grown is not None
+    assert old.ready(3, 2, weights, {})(ROWS).tobytes() == new.ready(3, 2, grown, {})(ROWS).tobytes()
+    assert int((grown != 0).sum()) == weights.size
+    narrow = replace(new, most=new.most - 1) if new.most else replace(new, bias=-1)
+    assert narrow.recast(weights, (3, 2), old) is None
+
+
+@pytest.mark.parametrize("function", ["mlp hidden 1", "mlp hidden 2 width 5 bias 1"])
+def test_a_mind_does_the_same_after_it(tmp_path: Path, function: str) -> None:
+    path = write_mind(tmp_path, MIND.replace("skill Go is mlp hidden 1", f"skill Go is {function}"))
+    teach(path)
+    before = commands(path, some_readings(path))
+    sentences = made(path, "grow", skill="Go")
+    assert sentences == ["Go keeps its weights, as a matrix of links", "3 trained skills keep what was learnt"]
+    assert commands(path, some_readings(path)) == before
+    states = [state for name, state in statuses(path).items() if name != "Grab"]
+    assert all(isinstance(state, Trained) and not state.changes for state in states)
+
+
+@pytest.mark.parametrize("links", ["forward", "any"])
+def test_pruning_leaves_what_leads_to_an_output(tmp_path: Path, links: str) -> None:
+    function = Neat(5, links)  # type: ignore[arg-type]
+    path = write_mind(tmp_path, MIND.replace("skill Go is mlp hidden 1", f"skill Go is neat most 5 links {links}"))
+    teach(path)
+    found = np.random.default_rng(2).normal(0, 2, function.genome_length(1, 2)).astype(np.float32)
+    function.network(found, 2).cells[:, [3, 5]] = 0  # nobody reads the second neuron and the fourth
+    learnt(path, "Go", found)
+    before = commands(path, some_readings(path))
+    made(path, "prune", skill="Go")
+    assert f"skill Go is neat most 3{' links any' * (links == 'any')}  #" in path.read_text()
+    assert commands(path, some_readings(path)) == before
+    with pytest.raises(EditError, match="From each neuron of Go a way leads to an output"):
+        made(path, "prune", skill="Go")
+
+
+def test_what_no_link_leads_from_is_told_and_taken_out(tmp_path: Path) -> None:
+    text = MIND.replace(
+        "skill Go is mlp hidden 1  # to the ball\n", "skill Go is neat most 2\n  reads eye\n  reads charge\n"
+    )
+    path = write_mind(tmp_path, text)
+    teach(path)
+    genome = np.random.default_rng(3).normal(0, 1, (4, 8)).astype(np.float32)
+    genome[:, 1:4] = 0  # nobody reads the eye
+    learnt(path, "Go", genome.ravel())
+    before = commands(path, some_readings(path))
+    [found] = lint(load(path), ["unused-reading"])
+    assert found.message == "Go reads eye, and no link that it has learnt leads from there."
+    assert found.hint.startswith(f"mindc edit disconnect {path} Go eye --keep-weights takes the line out")
+    made(path, "disconnect", keep_weights=True, skill="Go", target="eye")
+    assert commands(path, some_readings(path)) == before
+    assert lint(load(path), ["unused-reading"]) == []
+    with pytest.raises(EditError, match="Go cannot keep its weights: reads ball_bearing is gone"):
+        made(path, "disconnect", keep_weights=True, skill="Go", target="ball_bearing")
+
+
+def learnt(path: Path, skill: str, weights: np.ndarray) -> None:
+    """Put weights into the lock in place of those of a skill."""
+    lock = read_lock(lock_path(path))
+    blob(path.parent, digest(weights)).write_bytes(to_npy(weights))
+    write_lock(lock_path(path), lock | {skill: replace(lock[skill], weights=digest(weights))})
