@@ -67,6 +67,8 @@ ROBOTS = [  # a body, and what moves it
     ("body Robot is car size 2 1.5", STEERED),
 ]
 ACTUATORS = {**WHEELS, **SERVOS, "claw": CLAW, "mast": MAST}
+KEPT = "register", "register start 1/2", "counter step 5%", "counter step 1/9"
+CAMPS = "left rolled right spun compass north", "left spun right rolled compass south range 9"
 SENSORS = {
     "eye": [
         "sensor eye is range_finder at 0 30 330 deg",
@@ -79,7 +81,11 @@ SENSORS = {
     "ball_bearing": ["sensor ball_bearing is bearing of ball on pan", "sensor ball_bearing is bearing of nest"],
     "gaze": ["sensor gaze is direction of pan", "sensor gaze is direction of tilt"],
     "drift": ["sensor drift is derivative of ball_bearing", "sensor drift is derivative of north"],
-    "mood": ["memory mood is cell decay 0.9", "memory mood is cell decay 95%"],
+    "mood": [f"memory mood is {kind}" for kind in ("cell decay 0.9", "cell decay 95%", *KEPT)],
+    "camp": [f"memory camp is place {by}" for by in CAMPS],
+    "south": ["sensor south is compass dead_zone 1%"],
+    "spun": ["sensor spun is odometer side right range 5"],
+    "back": ["sensor back is bearing of camp", "sensor back is distance of camp range 5"],
     "north": ["sensor north is compass"],
     "flight": ["sensor flight is turned of ball_bearing by 180 deg", "sensor flight is turned of north by -45 deg"],
     "flip": ["sensor flip is mirrored of ball_bearing", "sensor flip is mirrored of north"],
@@ -111,7 +117,7 @@ SENSORS = {
     "pull": ["sensor pull is order -1 to 1", "sensor pull is order 0 to 2 every 1 s lost 5% neutral 1 timeout 1 s"],
     "bumps": ["sensor bumps is bumper at -45 45 deg", "sensor bumps is bumper at 0 180 deg width 90 deg"],
 }
-WIDE = {"eye", "camera", "line", "bumps", "asked"}
+WIDE = {"eye", "camera", "line", "bumps", "asked", "camp"}
 NARROW = SENSORS.keys() - WIDE  # readings of width 1
 SCENES = ["plain", "arena size 40", "arena", "arena size 60 50"]
 ROCKS = [
@@ -324,6 +330,7 @@ def _more(rng: Random, noun: str, line: str) -> str:
     words += ["size"] * (noun == "body")  # and there is as much room for the robot
     words += ["neutral"] * (kind == "order")  # which has to be one of them
     words += ["on"]  # of which there are servos
+    words += ["noise", "lost", "every", "delay"] * (" of camp" in line)  # which is reckoned
     often = 0.5 if noun in ("curriculum", "body", "actuator") else 0.2
     for argument in arguments(kinds(noun)[kind]):
         if not argument.required and argument.key not in words and rng.random() < often:
