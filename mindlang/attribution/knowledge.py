@@ -119,7 +119,7 @@ def _drawn(setup: RunSetup, of: str, seed: int, states: Sequence[Doubles]) -> tu
 
 
 def _targets(drawn: Doubles) -> tuple[tuple[float, ...], Doubles]:
-    """The values that are told apart, and what is to be told [runs, columns]: 1 in the column of a value, or a number."""
+    """The values that are told apart, and what is to be told [runs, columns]: 1 for a value, or a number."""
     several = np.unique(drawn, axis=0)
     if len(several) == 1:
         raise ProbeError("it is the same in all of these runs", "make more runs, or draw one of several")
