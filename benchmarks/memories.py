@@ -3,7 +3,7 @@
 The minds of examples/memories, taught from scratch with each seed in a folder of their own, then 400 runs on layouts
 that no training has seen. `corridor` at lengths of 10 to 120 ticks, with its register, with a cell in the place of it
 (which holds nothing by itself), and without a memory; `pairs` with its registers and without; `nest` with noise of 2 %
-on odometers and compass, and with wheels that are 2 % larger and smaller than the robot believes.
+on odometers and compass.
 """
 
 import argparse
@@ -27,7 +27,6 @@ NEST_UNITS = 3.0
 FORGETTING = {"memory note is register start 50%": "memory note is cell decay 0 start 50%"}
 WITHOUT_NOTE = {"  reads note\n": ""}
 WITHOUT_LETTERS = {"  reads context\n": "", "  reads letter\n": ""}
-WORN = {"side left range 12": "side left range 12.24", "side right range 12": "side right range 11.76"}
 
 
 def taught(name: str, folder: Path, changes: dict[str, str], seed: int) -> Path:
@@ -90,19 +89,11 @@ def right_answers(path: Path) -> float:
 def nest(seed: int, folder: Path) -> Iterator[str]:
     """How far from the nest the robot says that it is there."""
     path = taught("nest", folder, {}, seed)
-    worn = folder / "worn.mind"
-    for what, changes in {"noise 2 %": {}, "and wheels 2 % off": WORN}.items():
-        text = path.read_text(encoding="utf-8")
-        for old, new in changes.items():
-            text = text.replace(old, new)
-        worn.write_text(text, encoding="utf-8")
-        worn.with_suffix(".lock").write_bytes(path.with_suffix(".lock").read_bytes())
-        setup = set_up(str(worn), load(worn), None, None)
-        rollout = setup.rollout()
-        away = [hypot(*ended_at(rollout, layout)) for layout in setup.layouts(UNSEEN_SEED, NEST_RUNS)]
-        share = sum(each <= NEST_UNITS for each in away) / len(away)
-        said = f"median {sorted(away)[len(away) // 2]:.2f}, worst {max(away):.2f}"
-        yield f"{what}: {share:.0%} within {NEST_UNITS:g}, {said}"
+    setup = set_up(str(path), load(path), None, None)
+    rollout = setup.rollout()
+    away = sorted(hypot(*ended_at(rollout, layout)) for layout in setup.layouts(UNSEEN_SEED, NEST_RUNS))
+    share = sum(each <= NEST_UNITS for each in away) / len(away)
+    yield f"{share:.0%} within {NEST_UNITS:g}, median {away[len(away) // 2]:.2f}, worst {away[-1]:.2f}"
 
 
 def ended_at(rollout: object, layout: int) -> tuple[float, float]:

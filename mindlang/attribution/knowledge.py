@@ -149,7 +149,8 @@ def _asked(
         right: Doubles = (guessed.argmax(axis=2) == told.argmax(axis=2)).mean(axis=0)
         return right
     missed = ((guessed - told) ** 2).sum(axis=(0, 2))
-    return 1.0 - missed / ((told - told.mean(axis=0)) ** 2).sum(axis=(0, 2)).clip(1e-12)
+    explained: Doubles = 1.0 - missed / ((told - told.mean(axis=0)) ** 2).sum(axis=(0, 2)).clip(1e-12)
+    return explained
 
 
 def _ridge(seen: Doubles, told: Doubles, fresh: Doubles) -> Doubles:
@@ -158,8 +159,9 @@ def _ridge(seen: Doubles, told: Doubles, fresh: Doubles) -> Doubles:
     scaled = (seen - middle) / np.where(spread > 1e-9, spread, np.inf)
     square = scaled.T @ scaled + RIDGE * np.eye(seen.shape[1])
     mean = told.mean(axis=0)
-    found: Doubles = (fresh - middle) / np.where(spread > 1e-9, spread, np.inf)
-    return found @ np.linalg.solve(square, scaled.T @ (told - mean)) + mean
+    slopes = np.linalg.solve(square, scaled.T @ (told - mean))
+    guessed: Doubles = (fresh - middle) / np.where(spread > 1e-9, spread, np.inf) @ slopes + mean
+    return guessed
 
 
 def since(found: Knowledge) -> Iterator[int]:
