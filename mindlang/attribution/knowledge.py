@@ -14,8 +14,8 @@ from mindlang.run.setup import NO_GENOME, RunSetup, run_all
 
 TICKS_ASKED = 24  # of a run, at most
 MOST_VALUES = 10  # that are told apart; of more, or of a range, the number itself is asked for
-FOLDS, PERMUTATIONS_DRAWN, LEAST_RUNS = 5, 20, 20
-RIDGE = 1.0  # of readings with a spread of 1
+FOLD_COUNT, PERMUTATIONS_DRAWN, LEAST_RUNS = 5, 20, 20
+RIDGE_WEIGHT = 1.0  # of readings with a spread of 1
 
 
 class ProbeError(MindError):
@@ -142,7 +142,7 @@ def _asked(
     others = [wanted[np.argsort(each[lasting])] for each in order]
     told = np.array([wanted, *others]).transpose(1, 0, 2)  # [runs, 1 + permutations, columns]
     guessed = np.empty_like(told)
-    for test in np.array_split(np.arange(len(seen)), FOLDS):
+    for test in np.array_split(np.arange(len(seen)), FOLD_COUNT):
         rest = np.setdiff1d(np.arange(len(seen)), test)
         guessed[test] = _ridge(seen[rest], told[rest].reshape(len(rest), -1), seen[test]).reshape(told[test].shape)
     if is_class:
@@ -157,7 +157,7 @@ def _ridge(seen: Doubles, told: Doubles, fresh: Doubles) -> Doubles:
     """What is told of fresh rows by the regression of `told` [rows, columns] on `seen`, each reading with spread 1."""
     middle, spread = seen.mean(axis=0), seen.std(axis=0)
     scaled = (seen - middle) / np.where(spread > 1e-9, spread, np.inf)
-    square = scaled.T @ scaled + RIDGE * np.eye(seen.shape[1])
+    square = scaled.T @ scaled + RIDGE_WEIGHT * np.eye(seen.shape[1])
     mean = told.mean(axis=0)
     slopes = np.linalg.solve(square, scaled.T @ (told - mean))
     guessed: Doubles = (fresh - middle) / np.where(spread > 1e-9, spread, np.inf) @ slopes + mean
