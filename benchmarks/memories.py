@@ -21,7 +21,7 @@ from benchmarks.workloads import COLLECT
 from mindlang.compiler.compile import load
 from mindlang.run.setup import set_up
 
-RUNS, NEST_RUNS, UNSEEN_SEED = 400, 100, 9
+BENCH_RUNS, NEST_RUNS, UNSEEN_SEED = 400, 100, 9
 LENGTHS_TICKS = 10, 20, 60, 120
 NEST_UNITS = 3.0
 FORGETTING = {"memory note is register start 50%": "memory note is cell decay 0 start 50%"}
@@ -44,7 +44,7 @@ def taught(name: str, folder: Path, changes: dict[str, str], seed: int) -> Path:
 def success(path: Path) -> float:
     """The share of runs that succeed; 0 where no attempt has passed."""
     try:
-        found = mindlang.load(path).bench(runs=RUNS, seed=UNSEEN_SEED)
+        found = mindlang.load(path).bench(runs=BENCH_RUNS, seed=UNSEEN_SEED)
     except MindError:
         return 0.0
     return float(found["success"]["mean"])
@@ -65,7 +65,7 @@ def pairs(seed: int, folder: Path) -> Iterator[str]:
     """The share of pairs that are answered rightly, of what can be had in each."""
     for what, changes in {"registers": {}, "no memory": WITHOUT_LETTERS}.items():
         path = taught("pairs", folder, changes, seed)
-        lines = mindlang.load(path).bench(runs=RUNS, seed=UNSEEN_SEED)
+        lines = mindlang.load(path).bench(runs=BENCH_RUNS, seed=UNSEEN_SEED)
         yield f"{what}: {right_answers(path):.1%} of pairs, score {lines['score_mean']:.2f}"
 
 
