@@ -13,7 +13,7 @@ from mindrun.kinds.actuators.actuator import Gripper, Servo, Wheel
 from mindrun.kinds.bodies.body import Disc
 from mindrun.kinds.functions.function import Function, Rule
 from mindrun.kinds.functions.procedure import Procedure
-from mindrun.kinds.memory import Cell
+from mindrun.kinds.memory import Cell, Counter, MemoryKind, Place, Register
 from mindrun.kinds.registry import arguments, kinds
 from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.sensors.bumper import Bumper
@@ -122,7 +122,7 @@ def random_graph(draw: st.DrawFn, fewest_hidden: int = 0, alike: bool = True) ->
     With `alike`, skills may be like others.
     """
     sensors, memories = draw(_senses())
-    width = sum(sensor.width for sensor in sensors) + len(memories)
+    width = sum(sensor.width for sensor in sensors) + sum(memory.kind.kept for memory in memories)
     actuators = tuple(Actuator(f"a{i}", draw(st.sampled_from(ACTUATORS))) for i in range(draw(st.integers(1, 3))))
     sensors = draw(on_servos(sensors, actuators))
     count = draw(st.integers(1, 6))
@@ -157,7 +157,7 @@ def on_servos(draw: st.DrawFn, sensors: tuple[Sensor, ...], actuators: tuple[Act
         if isinstance(kind, Direction):
             said = {each.name: getattr(kind, each.name) for each in fields(Physical)}
             kind = replace(kind, of=draw(st.sampled_from(servos))) if servos else Compass(**said)
-        elif kind.servo or (hasattr(kind, "on") and draw(st.booleans())):
+        elif kind.servo or (hasattr(kind, "on") and not kind.is_reckoned and draw(st.booleans())):
             kind = replace(kind, on=draw(st.sampled_from(servos or [""])))
         found.append(replace(sensor, kind=kind))
     return tuple(found)
@@ -177,7 +177,7 @@ def _alike(draw: st.DrawFn, name: str, owner: Skill, width: int, targets: list[t
         return Gate(other(gate.when), None if gate.otherwise is None else other(gate.otherwise))
 
     sent = [(edge.to, edge.target) for edge in owner.edges]
-    if draw(st.booleans()):
+    if not (owner.chooses or any(edge.over for edge in owner.edges)) and draw(st.booleans()):
         sent = draw(st.permutations(targets))[: len(sent)]
     edges = tuple(
         replace(
@@ -247,12 +247,31 @@ def physical_kinds(draw: st.DrawFn) -> SensorKind:
     return replace(kind, **draw(ROUGH)) if isinstance(kind, Physical) and draw(st.booleans()) else kind
 
 
+RECKONED = st.builds(
+    Bearing, st.just(""), st.sampled_from([0.0, 0.3, 9.0]), st.sampled_from([0.0, 0.1]), is_reckoned=st.just(True)
+) | st.builds(Distance, st.just(""), st.sampled_from([0.3, 40.0]), is_reckoned=st.just(True))
+
+
+def memory_kinds(first: int) -> st.SearchStrategy[MemoryKind]:
+    """A kind of memory; a place is reckoned by the sensors of the numbers `first` to `first` + 2."""
+    by = [f"s{first + k}" for k in range(3)]
+    return st.one_of(
+        st.builds(Cell, SHARES, SHARES),
+        st.builds(Register, SHARES),
+        st.builds(Counter, SHARES),
+        st.builds(Place, *map(st.just, by), st.sampled_from([0.5, 100.0])),
+    )
+
+
 @st.composite
 def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
     """Sensors and memories; derivatives of anything, and of one another."""
     kinds = draw(st.lists(physical_kinds() | physical_kinds() | VIRTUAL, min_size=2, max_size=7))
-    cells = [Cell(draw(SHARES), draw(SHARES)) for _ in range(draw(st.integers(0, 2)))]
-    widths = {f"m{i}": 1 for i in range(len(cells))}
+    kept = draw(st.lists(memory_kinds(len(kinds)), max_size=2))
+    if places := [f"m{i}" for i, kind in enumerate(kept) if kind.is_place]:
+        kinds += [Odometer("left", range=draw(st.sampled_from([1.0, 5000.0]))), Odometer("right"), Compass()]
+        kinds += [replace(each, of=draw(st.sampled_from(places))) for each in draw(st.lists(RECKONED, max_size=2))]
+    widths = {f"m{i}": kind.width for i, kind in enumerate(kept)}
     sensors: list[Sensor] = []
     start = 0
     for number, kind in enumerate(kinds):
@@ -262,8 +281,11 @@ def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
         sensors.append(Sensor(f"s{number}", kind, start, width))
         widths[f"s{number}"] = width
         start += width
-    places = draw(st.permutations(range(len(sensors))))  # a derivative may stand before its source
-    return _placed([sensors[i] for i in places]), tuple(Memory(f"m{i}", c, start + i) for i, c in enumerate(cells))
+    order = draw(st.permutations(range(len(sensors))))  # a derivative may stand before its source
+    begins = np.cumsum([start, *(kind.kept for kind in kept)]).tolist()
+    return _placed([sensors[i] for i in order]), tuple(
+        Memory(f"m{i}", kind, begin) for i, (kind, begin) in enumerate(zip(kept, begins, strict=False))
+    )
 
 
 def has_mirror(of: str, widths: Mapping[str, int], known: Mapping[str, SensorKind]) -> bool:

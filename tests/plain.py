@@ -5,14 +5,15 @@ import operator
 
 import numpy as np
 from mindrun.kinds.functions.procedure import Procedure
+from mindrun.kinds.memory import Cell, Counter, Place, Register
 from mindrun.kinds.sensors.compass import Compass, Direction
 from mindrun.kinds.sensors.computed import Broken, Computed
 from mindrun.kinds.sensors.derived import Average, Derivative, Mirrored, Reading, Turned
-from mindrun.kinds.sensors.nearest import Bearing
+from mindrun.kinds.sensors.nearest import Bearing, Distance
 from mindrun.kinds.sensors.waves import Clock, Sine
-from mindrun.numbers.arithmetic import DENOMINATOR, LIMIT, NUMERATOR
+from mindrun.numbers.arithmetic import DENOMINATOR, LIMIT, NUMERATOR, bearing
 from mindrun.numbers.network import Terms, matrices
-from mindrun.numbers.trigonometry import sine
+from mindrun.numbers.trigonometry import cosine, sine
 
 from tests.hierarchies import PROCEDURES
 
@@ -26,7 +27,7 @@ class Plain:
     def __init__(self, graph, weights, master=None):
         self.graph, self.weights, self.master = graph, weights, master or graph.master
         self.t, self.before, self.faults = 0, None, 0
-        self.cells = [f(memory.kind.start) for memory in graph.memories]
+        self.kept = [[f(memory.kind.start)] * memory.kind.kept for memory in graph.memories]
         self.past = {}  # by virtual sensor and reading
         self.said, self.modules = {}, {}  # by skill: of a network that remembers, and of a procedure
 
@@ -39,17 +40,59 @@ class Plain:
             self.before, self.t = self.readings, self.t + 1
             means = self.means("memory")
             for i, memory in enumerate(self.graph.memories):
-                self.cells[i] = f(memory.kind.decay) * self.cells[i]
-                if means[i] is not None:
-                    self.cells[i] = self.cells[i] + f(1 - memory.kind.decay) * means[i]
+                self.kept[i] = self.keep(memory.kind, self.kept[i], means[i])
             means = self.means("actuator")
             neutral = [f(actuator.kind.neutral) for actuator in self.graph.actuators]
             return [n if m is None else m for m, n in zip(means, neutral, strict=True)]
 
+    def keep(self, kind, kept, command):
+        """What a memory keeps after a tick, under a command or None."""
+        match kind:
+            case Cell():
+                faded = f(kind.decay) * kept[0]
+                return [faded if command is None else faded + f(1 - kind.decay) * command]
+            case Register():
+                return kept if command is None else [command]
+            case Counter():
+                rises = command is not None and command > 0.5
+                count = min(f(1), kept[0] + f(kind.step)) if rises and not kept[1] else kept[0]
+                return [f(0) if command is not None and command < 0.25 else count, f(rises)]
+            case Place():
+                left, right, compass = (self.sensor(name) for name in (kind.left, kind.right, kind.compass))
+                ways = [s.kind.range * self.graph.tick / (2 * kind.range) for s in (left, right)]
+                pairs = zip((left, right), ways, strict=True)
+                way = sum((self.readings[s.start] - np.float64(0.5)) * w for s, w in pairs)
+                angle = 2.0 * np.pi * (np.float64(self.readings[compass.start]) - 0.25)
+                is_here, found = command is not None and command > 0.5, []
+                shares = (cosine(angle), sine(angle)) if math.isfinite(angle) else (np.nan, np.nan)
+                for number, share in zip(kept, shares, strict=True):
+                    step = way * share
+                    step = step if abs(step) <= 1 else 0.0
+                    found.append(clamp(f(np.float64(f(0.5) if is_here else number) - step)))
+                return found
+
+    def sensor(self, name):
+        """The sensor of a name."""
+        return next(sensor for sensor in self.graph.sensors if sensor.name == name)
+
+    def reckoned(self, kind, place):
+        """A reading of a bearing or a distance of a place."""
+        east, north = self.readings[place.start : place.start + 2]
+        far = np.sqrt((np.float64(east) - 0.5) ** 2 + (np.float64(north) - 0.5) ** 2) * f(2 * place.kind.range)
+        if isinstance(kind, Distance):
+            return clamp(f(far / kind.range))
+        compass = self.readings[self.sensor(place.kind.compass).start]
+        if not math.isfinite(compass):
+            return f(np.nan) if not kind.range or far <= kind.range else f(0.5)
+        angle = 2.0 * np.pi * (np.float64(compass) - 0.25)
+        c, s, x, y = f(cosine(angle)), f(sine(angle)), east - f(0.5), north - f(0.5)
+        v = bearing(c * x + s * y, c * y - s * x)
+        return v if abs(v - f(0.5)) >= f(kind.dead_zone) and (not kind.range or far <= kind.range) else f(0.5)
+
     def fill(self):
         """Set the readings of memories and virtual sensors."""
-        for memory, cell in zip(self.graph.memories, self.cells, strict=True):
-            self.readings[memory.start] = cell
+        for memory, kept in zip(self.graph.memories, self.kept, strict=True):
+            self.readings[memory.place] = kept
         done = {s.name for s in self.graph.sensors if not (s.kind.sources or isinstance(s.kind, Computed | Broken))}
         done |= {memory.name for memory in self.graph.memories}
         waiting = [s for s in self.graph.sensors if s.name not in done]
@@ -82,6 +125,8 @@ class Plain:
             holds = postfix(program, self.readings)
             return f(0 if self.t == 0 or not self.influence[number] > 0 or holds > 0 else 1 if holds == 0 else np.nan)
         source = parts[kind.of]
+        if isinstance(kind, Bearing | Distance):
+            return self.reckoned(kind, source)
         match kind:
             case Derivative():
                 return self.derivative(kind, source, i, turns(source, parts))

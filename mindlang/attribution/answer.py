@@ -166,8 +166,7 @@ def _reads(attributed: AttributedRun, of: Contribution, rows: range) -> dict[str
     inputs = next(skill.inputs for skill in graph.skills if skill.name == name)
     read = attributed.flows.rows(np.array(rows))[0][:, list(inputs)].astype(float)
     around = directions({each.name: each.kind for each in graph.sensors})
-    owners = {place: each.name for each in graph.sensors for place in range(each.start, each.start + each.width)}
-    owners |= {each.start: each.name for each in graph.memories}
+    owners = dict(enumerate(name for name, _ in graph.readings))
     found: dict[str, list[float | None]] = {}
     for place, values in zip(inputs, read.T, strict=True):
         value = float((mean_direction if owners[place] in around else np.mean)(values))

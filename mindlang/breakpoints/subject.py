@@ -64,7 +64,7 @@ class BreakpointSubject:
     def places(self) -> lower.Places:
         """The places of the readings and the commands in a row, and of the numbers that are drawn for the run."""
         readings = {each.name: (each.start, each.width) for each in self.graph.sensors}
-        readings |= {each.name: (each.start, 1) for each in self.graph.memories}
+        readings |= {each.name: (each.start, each.kind.width) for each in self.graph.memories}
         actuators = {each.name: place for place, each in enumerate(self.graph.actuators)}
         return lower.Places(readings, actuators, draws={draw: place for place, draw in enumerate(self.draws.values())})
 

@@ -40,9 +40,10 @@ def lower(mind: model.Mind) -> graph.Graph:
     starts = [*accumulate((sensor.width for sensor in mind.sensors), initial=0)]
     placed = zip(mind.sensors, starts[:-1], strict=True)
     sensors = [graph.Sensor(each.name, each.kind, start, each.width) for each, start in placed]
-    memories = [graph.Memory(each.name, each.kind, place) for place, each in enumerate(mind.memories, starts[-1])]
+    begins = accumulate((memory.kind.kept for memory in mind.memories), initial=starts[-1])
+    memories = [graph.Memory(each.name, each.kind, place) for each, place in zip(mind.memories, begins, strict=False)]
     readings = {sensor.name: (sensor.start, sensor.width) for sensor in sensors}
-    readings |= {memory.name: (memory.start, 1) for memory in memories}
+    readings |= {memory.name: (memory.start, memory.kind.width) for memory in memories}
     commands = _numbered(actuator.name for actuator in mind.actuators)
     return graph.Graph(
         mind.tick,

@@ -12,7 +12,7 @@ from mindrun.kinds.actuators.actuator import ActuatorKind
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.events.event import EventKind
 from mindrun.kinds.functions.function import Function
-from mindrun.kinds.memory import Cell
+from mindrun.kinds.memory import MemoryKind
 from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.sensors.sensor import SensorKind
@@ -209,7 +209,7 @@ class Mind:
     master: str
     body: Part[BodyKind]
     sensors: tuple[Part[SensorKind], ...]
-    memories: tuple[Part[Cell], ...]
+    memories: tuple[Part[MemoryKind], ...]
     actuators: tuple[Part[ActuatorKind], ...]
     skills: tuple[Skill, ...]
     tasks: tuple[Task, ...]

@@ -297,11 +297,13 @@ def _in_phrase(noun: str, phrase: Phrase | None) -> Iterator[Named]:
 
 def _in_arguments(written: Iterable[syntax.Argument], classes: Iterable[type[Any]]) -> Iterator[Named]:
     """The names among arguments of some kinds; a lesson begins `from` a skill."""
+    classes = [*classes]
     wanted = {each.key: each.type for cls in classes for each in arguments(cls)}
+    about = ("memory", "thing") if any(getattr(cls, "can_be_reckoned", False) for cls in classes) else ("thing",)
     for key, value in ((each.key.text, each.value) for each in written):
         match value, wanted.get(key):
             case Name(), Noun(noun="thing"):
-                yield value, ("thing",)
+                yield value, about
             case syntax.AnyName(names), Noun(noun="thing"):
                 yield from ((name, ("thing",)) for name in names)
             case Name(), Noun(noun="sensor"):

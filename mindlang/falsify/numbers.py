@@ -8,8 +8,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from mindrun.graph.graph import Graph, Task, varied_quantity
+from mindrun.graph.graph import Graph, Task
 from mindrun.graph.tasks import varied_kind
+from mindrun.kinds.registry import varied_quantity
 from mindrun.sim.rollout import Rollout
 from numpy.typing import NDArray
 

@@ -111,6 +111,8 @@ class Worlds:
         sources = (
             with_descendants(source_graph(self.graph.sensors), read & {each.name for each in self.graph.sensors}) | read
         )
+        kept = (memory for memory in self.graph.memories if memory.name in sources | driven)
+        sources |= {source for memory in kept for source in memory.kind.sources}
         for sensor in self.graph.sensors:
             if sensor.name in sources:
                 yield f"sensor {sensor.name}", encode(sensor.kind.taught)

@@ -115,7 +115,7 @@ def readings_by_name(graph: Graph, readings: Singles) -> dict[str, list[float]]:
     """Readings [graph.width] by sensor and memory."""
     values = readings.tolist()
     found = {sensor.name: values[sensor.place] for sensor in graph.sensors}
-    return found | {memory.name: [values[memory.start]] for memory in graph.memories}
+    return found | {memory.name: values[memory.start : memory.start + memory.kind.width] for memory in graph.memories}
 
 
 def _edge(edge: EdgeClaim, hashes: Hashes) -> Data:

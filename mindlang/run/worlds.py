@@ -9,7 +9,7 @@ from mindrun.graph.codec import encode
 from mindrun.graph.graph import Graph, Task, Variation
 from mindrun.graph.measured import measured_in_world
 from mindrun.graph.validate import graph_flaw
-from mindrun.kinds.registry import arguments, names
+from mindrun.kinds.registry import arguments, names, varying_of
 from mindrun.numbers.quantity import ANGLE, COUNT, NUMBER, RATIO, TICKS, UNSAID, Quantity, Span, fits
 
 from mindlang.lock.world_facts import argument
@@ -85,7 +85,7 @@ def _parts(graph: Graph, task: Task, master: str) -> Iterator[Part]:
         yield Part("body", "", graph.body)
     yield from (Part("actuator", each.name, each.kind) for each in graph.actuators)
     measured = measured_in_world(graph, master, task)
-    yield from (Part("sensor", each.name, each.kind) for each in measured if each.kind.varying)
+    yield from (Part("sensor", each.name, each.kind) for each in measured if varying_of(each.kind))
 
 
 def _numbers(part: Part) -> Iterator[str]:

@@ -15,7 +15,7 @@ from typing import Any
 from lark import UnexpectedInput
 from lark.lexer import PatternStr
 from mindrun.kinds import registry
-from mindrun.kinds.registry import kinds, named_arguments
+from mindrun.kinds.registry import find_kind, kinds, named_arguments
 from mindrun.kinds.things.thing import ROBOT
 from mindrun.numbers.quantity import FUNCTION, Reference
 from mindrun.sim.outside import making
@@ -264,6 +264,8 @@ def _arguments(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
         case key, registry.Argument(type=Reference(noun="thing")):
             yield from offers.words(*[ROBOT] * (said.noun == "content"))
             yield from offers.things(line.view, _task(line, nodes[0]), about(said.noun, said.kind, key))
+            if getattr(find_kind(said.noun, said.kind), "can_be_reckoned", False):
+                yield from offers.places(line.view)
         case _, registry.Argument(type=Reference(noun="servo")):
             yield from offers.names(line.view, "actuator")
         case _, registry.Argument(type=meaning) if meaning == FUNCTION:

@@ -63,7 +63,9 @@ def _nodes(graph: Graph, skills: Sequence[Skill], by_hand: Sequence[str]) -> dic
         places = range(sensor.start, sensor.start + sensor.width)
         found["sensor", place] = PlacedNode(sensor.name, sensor.kind, "readings", places)
     for place, cell in enumerate(graph.memories):
-        found["memory", place] = PlacedNode(cell.name, cell.kind, "readings", [cell.start])
+        found["memory", place] = PlacedNode(
+            cell.name, cell.kind, "readings", range(cell.start, cell.start + cell.kind.width)
+        )
     for place, skill in enumerate(graph.skills):
         if skill in skills:
             found["skill", place] = PlacedNode(skill.name, skill.function, "influence", [place])

@@ -15,7 +15,7 @@ from mindrun.errors import system_errors_as
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.draws import drawn_in_words, drawn_numbers
 from mindrun.graph.graph import Graph, Task
-from mindrun.graph.named_readings import reading_names
+from mindrun.graph.named_readings import kept_rows, reading_names
 from mindrun.graph.recording_header import About, RecordedWorld, RecordingError
 from mindrun.robot.hand import Hand, Said
 from mindrun.robot.recording import Recorder
@@ -134,7 +134,7 @@ class DrivenRun:
         engine, row = self.engine, np.zeros(1, self.about.row)
         commands = engine.tick_with(self.world.readings(), self.hand.influence(said))
         sent = self.hand.exchanged(commands, said)
-        self.world.remember({cell.name: float(engine.readings[cell.start]) for cell in engine.graph.memories})
+        self.world.remember({name: float(engine.readings[row]) for name, row in kept_rows(engine.graph).items()})
         self.world.step(sent)
         row["tick"], row["time"] = self.ticks, (self.ticks + 1) * self.about.tick
         row["armed"], row["ages"] = 1, np.nan  # what is simulated has no age

@@ -132,4 +132,5 @@ BATCHED = Terms(  # of numbers [genomes, rows, values]
     product=lambda values, matrix: values @ matrix.swapaxes(-1, -2),
     sigmoid=lambda values: 0.5 * np.tanh(0.5 * values) + 0.5,
     joined=lambda one, other: np.concatenate([one, other], axis=-1),
+    biased=lambda values: np.concatenate([np.ones_like(values[..., :1]), values], axis=-1),
 )

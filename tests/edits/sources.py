@@ -13,6 +13,7 @@ from mindrun.numbers.quantity import Reference
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.source import Source
 from mindlang.editing.project import Project, open_project
+from tests.edits.sensors import NARROW, SENSORS
 
 FOLDER = Path("/nowhere/minds")
 MAIN, PARTS = FOLDER / "main.mind", FOLDER / "parts.mind"
@@ -69,52 +70,6 @@ ROBOTS = [  # a body, and what moves it
     ("body Robot is car size 2 1.5", STEERED),
 ]
 ACTUATORS = {**WHEELS, **SERVOS, "claw": CLAW, "mast": MAST}
-SENSORS = {
-    "eye": [
-        "sensor eye is range_finder at 0 30 330 deg",
-        "sensor eye is range_finder at -30 deg 0 deg 30 deg range 12",
-        "sensor eye is range_finder at 30 to -30 by 15 deg",
-        "sensor eye is range_finder at 0 20 deg on tilt",
-    ],
-    "charge": ["sensor charge is battery"],
-    "beat": ["sensor beat is sine period 2 s", "sensor beat is sine period 0.5 s"],
-    "ball_bearing": ["sensor ball_bearing is bearing of ball on pan", "sensor ball_bearing is bearing of nest"],
-    "gaze": ["sensor gaze is direction of pan", "sensor gaze is direction of tilt"],
-    "drift": ["sensor drift is derivative of ball_bearing", "sensor drift is derivative of north"],
-    "mood": ["memory mood is cell decay 0.9", "memory mood is cell decay 95%"],
-    "north": ["sensor north is compass"],
-    "flight": ["sensor flight is turned of ball_bearing by 180 deg", "sensor flight is turned of north by -45 deg"],
-    "flip": ["sensor flip is mirrored of ball_bearing", "sensor flip is mirrored of north"],
-    "near": ["sensor near is contact of ball", "sensor near is contact of coin"],
-    "holding": ["sensor holding is held of ball", "sensor holding is held of coin"],
-    "home": ["sensor home is inside of nest", "sensor home is inside of dock"],
-    "moving": ["sensor moving is inertial"],
-    "way": ["sensor way is distance of ball", "sensor way is distance of nest range 9"],
-    "glow": ["sensor glow is light of ball", "sensor glow is light of dock range 4"],
-    "camera": ["sensor camera is eye of ball at -30 30 deg", "sensor camera is eye of nest at 0 40 deg on pan"],
-    "turning": ["sensor turning is turn_rate", "sensor turning is turn_rate range 90 deg dead_zone 1%"],
-    "pace": ["sensor pace is speed", "sensor pace is speed range 3 dead_zone 2%"],
-    "rolled": ["sensor rolled is odometer side left", "sensor rolled is odometer side right range 4"],
-    "place": ["sensor place is position along x", "sensor place is position along y range 20"],
-    "level": [
-        "sensor level is computed at 1 - charge",
-        "sensor level is computed at least of charge moving",
-        "sensor level is computed at 1 - charge when moving > 0.5 and charge < 80% otherwise moving",
-    ],
-    "hungry": [
-        "sensor hungry is latch of charge below 20% above 80%",
-        "sensor hungry is latch of moving below 1/9 above 1",
-    ],
-    "calm": ["sensor calm is average of moving over 30 ticks", "sensor calm is average of holding over 2 ticks"],
-    "first": ["sensor first is reading 1 of eye", "sensor first is reading 2 of camera"],
-    "hour": ["sensor hour is clock period 4 s", "sensor hour is clock period 1 s"],
-    "line": ["sensor line is floor of nest", "sensor line is floor of ball at 0.5 -0.5 ahead 1"],
-    "asked": ["sensor asked is order 1 to 3", "sensor asked is order 1 to 4 every 2 s lost 10% neutral 2 timeout 3 s"],
-    "pull": ["sensor pull is order -1 to 1", "sensor pull is order 0 to 2 every 1 s lost 5% neutral 1 timeout 1 s"],
-    "bumps": ["sensor bumps is bumper at -45 45 deg", "sensor bumps is bumper at 0 180 deg width 90 deg"],
-}
-WIDE = {"eye", "camera", "line", "bumps", "asked"}
-NARROW = SENSORS.keys() - WIDE  # readings of width 1
 SCENES = ["plain", "arena size 40", "arena", "arena size 60 50"]
 ROCKS = [
     "rock is obstacle grid 10 size 2 to 3",
@@ -326,6 +281,7 @@ def _more(rng: Random, noun: str, line: str) -> str:
     words += ["size"] * (noun == "body")  # and there is as much room for the robot
     words += ["neutral"] * (kind == "order")  # which has to be one of them
     words += ["on"]  # of which there are servos
+    words += ["noise", "lost", "every", "delay"] * (" of camp" in line)  # which is reckoned
     often = 0.5 if noun in ("curriculum", "body", "actuator") else 0.2
     for argument in arguments(kinds(noun)[kind]):
         if not argument.required and argument.key not in words and rng.random() < often:

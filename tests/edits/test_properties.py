@@ -17,7 +17,8 @@ from mindlang.compiler.syntax import Influences
 from mindlang.editing.apply import apply_edit
 from mindlang.editing.edits import edit, names
 from mindlang.editing.project import EditError, Project
-from tests.edits.sources import ACTUATORS, LIKE, MAIN, PARTS, SENSORS, SKILLS, Texts, minds
+from tests.edits.sensors import SENSORS
+from tests.edits.sources import ACTUATORS, LIKE, MAIN, PARTS, SKILLS, Texts, minds
 
 OFTEN, SELDOM = 5000, 15  # cases of each test in the slow suite, and in the other
 FREE = ("New", "Go+New", "Roam", "Over")

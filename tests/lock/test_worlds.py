@@ -68,6 +68,10 @@ sensor gaze is direction of mast
 sensor fear is range_finder at 0 deg range 3
 sensor unsafe is broken Grab
 memory mood is cell decay 0.9
+sensor spun is odometer side right
+memory camp is place left rolled right spun compass north
+memory laps is counter step 10%
+memory seen is register
 
 skill Go is mlp hidden 1
   reads eye
@@ -98,6 +102,9 @@ skill Watch is rule
   reads turning
   reads pace
   reads rolled
+  reads camp
+  reads laps
+  reads seen
   reads place
   reads hour
   reads line
@@ -281,7 +288,7 @@ def _parts(graph: Graph) -> Iterator[tuple[str, Any]]:
     yield "body", graph.body
     yield from (("actuator", each.kind) for each in graph.actuators)
     yield from (("sensor", each.kind) for each in graph.sensors if each.name != "unread")
-    yield "memory", graph.memories[0].kind
+    yield from (("memory", each.kind) for each in graph.memories if each.name != "unused")
     yield from (("skill", each.function) for each in graph.skills if each.name != "Turnless")
     yield "task", task.scene
     yield from (("content", each.kind) for each in task.things)

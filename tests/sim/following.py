@@ -101,7 +101,7 @@ def inside(x: float, y: float, left: float, low: float, right: float, high: floa
 def hold_readings(plain: PlainWorld, used: set[int], moment: Moment) -> None:
     """Every physical sensor that somebody reads says what may be."""
     for sensor in plain.graph.sensors:
-        if isinstance(sensor.kind, Physical) and sensor.start in used:
+        if isinstance(sensor.kind, Physical) and sensor.kind.is_given and sensor.start in used:
             for k, spans in enumerate(plain.seen(sensor)):
                 value = moment.readings[sensor.start + k]
                 assert 0 <= value <= 1
@@ -119,7 +119,7 @@ def hold_orders(graph: Graph, used: set[int], moment: Moment, seed: int) -> None
 def hold_mind(engine: Engine, used: set[int], moment: Moment) -> None:
     """The engine sees the same, also where it computes it itself, and thinks the same."""
     rows = [s.start + k for s in engine.graph.sensors if s.start in used for k in range(s.width)]
-    rows += [memory.start for memory in engine.graph.memories]
+    rows += [row for memory in engine.graph.memories for row in range(memory.place.start, memory.place.stop)]
     assert np.array_equal(engine.readings[rows], moment.readings[rows], equal_nan=True)
     assert engine.influence.tobytes() == moment.influence.tobytes()
 

@@ -15,7 +15,7 @@ from mindlang.compiler.names import Names, declared_names
 from mindlang.compiler.resolve.curricula import lessons
 from mindlang.compiler.resolve.goals import with_goals
 from mindlang.compiler.resolve.outside import body_outside, check_outside, is_outside
-from mindlang.compiler.resolve.parts import check_drives, resolve_parts, sensors
+from mindlang.compiler.resolve.parts import check_drives, memory_widths, resolve_parts, sensors
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.resolve.skills import skills
 from mindlang.compiler.resolve.tasks import resolve_tasks
@@ -40,9 +40,10 @@ def resolve_mind(files: Sequence[File], findings: Findings) -> model.Mind | None
     _check_versions(files, findings)
     names = expand(written, values, tick, findings)
     names = with_goals(names, number_writer(names, values, tick), tick, findings)
-    known_sensors = sensors(names, findings)
-    width = dict.fromkeys(names.of("sensor", "memory"), 1) | {each.name: each.width for each in known_sensors}
     memories, actuators = resolve_parts("memory", names, findings), resolve_parts("actuator", names, findings)
+    known_sensors = sensors(names, memories, findings)
+    width = dict.fromkeys(names.of("sensor"), 1) | memory_widths(names, memories)
+    width |= {each.name: each.width for each in known_sensors}
     known_skills = skills(names, width, findings)
     influences = model.influence_graph(known_skills)
     says, hint = "Skills influence one another in a circle", "Influence flows one way, from the master down"

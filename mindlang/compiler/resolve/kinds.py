@@ -213,8 +213,27 @@ def about(noun: str, kind: str, argument: str = "of") -> Set[str]:
     return {name for name, thing in kinds("content").items() if cls.accepts(argument, thing)}
 
 
+def _is_place(name: Name, cls: Any, scope: Scope, findings: Findings) -> bool:
+    """True if a name is that of a memory: a place hides a thing of its name where the kind can be about either.
+
+    A memory that the kind cannot be about is reported, where there is no such thing.
+    """
+    memory = scope.names.table.get("memory", {}).get(name.text)
+    phrase = memory.header.phrase if memory else None
+    found = find_kind("memory", phrase.kind.text) if phrase else None
+    if found is None or (found.is_place and cls.can_be_reckoned):
+        return memory is not None
+    if name.text in (scope.things or ()):
+        return False
+    of = listed(kind for kind, each in kinds("sensor").items() if each.can_be_reckoned)
+    hint = f"Of a memory that is a place there is {of}; a task contains what else a sensor is about."
+    findings.error("unfit-thing", name.span, f"{name.text} is a memory, and no thing of a task.", hint)
+    return True
+
+
 def _check_thing(name: Name, noun: str, kind: str, key: str, scope: Scope, findings: Findings) -> None:
-    if scope.things is None:
+    cls = find_kind(noun, kind) or AboutThing
+    if scope.things is None or (noun == "sensor" and _is_place(name, cls, scope, findings)):
         return
     if noun == "content" and key != WITHIN and name.text == ROBOT:
         if ROBOT in scope.things:
@@ -226,7 +245,7 @@ def _check_thing(name: Name, noun: str, kind: str, key: str, scope: Scope, findi
         hint = findings.suggest(name.text, scope.things) or add
         findings.error("unknown-thing", name.span, f"There is nothing called {name.text} in {scope.place}.", hint)
         return
-    cls, there = find_kind(noun, kind) or AboutThing, [find_kind("content", each) for each in scope.things[name.text]]
+    there = [find_kind("content", each) for each in scope.things[name.text]]
     if all(there) and not any(cls.accepts(key, thing) for thing in there if thing):
         is_ = listed(a(kind) for kind in sorted(scope.things[name.text]))
         about_ = WITHIN if key == WITHIN else "about"

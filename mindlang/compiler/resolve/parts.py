@@ -1,6 +1,7 @@
 """Sensors, memories, actuators and the body: how many readings each sensor has, whether the actuators can move it."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import replace as replace_fields
 from math import prod
 from typing import Any, TypeVar
 
@@ -9,7 +10,7 @@ from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.registry import kinds
 from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.sensors.computed import Computed
-from mindrun.kinds.sensors.sensor import directions
+from mindrun.kinds.sensors.sensor import Flaw, directions
 from mindrun.numbers.quantity import SKILL
 from msgspec.structs import replace
 
@@ -82,11 +83,17 @@ def promises(declaration: Declaration, names: Names, widths: Widths, findings: F
     return tuple(Promise(resolve_expressions(fact, visible, findings), fact) for fact in lines)
 
 
-def sensors(names: Names, findings: Findings) -> Parts:
+def memory_widths(names: Names, memories: Parts) -> dict[str, int]:
+    """How many readings each memory has; one that could not be made is taken to have one."""
+    return dict.fromkeys(names.of("memory"), 1) | {memory.name: memory.kind.width for memory in memories}
+
+
+def sensors(names: Names, memories: Parts, findings: Findings) -> Parts:
     """The sensors with their widths, as they are declared; those that are computed from themselves are reported."""
-    plain = {sensor.name: sensor for sensor in resolve_parts("sensor", names, findings)}
+    places = {memory.name for memory in memories if memory.kind.is_place}
+    plain = {sensor.name: _of_place(sensor, places) for sensor in resolve_parts("sensor", names, findings)}
     formulas = {name: header for name, each in names.declarations("sensor") if (header := each.header).at}
-    widths = _widths(plain, [*formulas, *names.of("memory")])
+    widths = _widths(plain, dict.fromkeys(formulas, 1) | memory_widths(names, memories))
     visible = Visible(widths, unread=names.unread, made_of="numbers, sensors and memories")
     for name, header in formulas.items():
         plain[name] = _computed(header, visible, findings)
@@ -105,11 +112,25 @@ def sensors(names: Names, findings: Findings) -> Parts:
     around = directions(kinds)
     for sensor in (each for each in found if each.name not in formulas and not each.kind.named(SKILL)):
         if flaw := sensor.kind.flaw(widths, around) or sensor.kind.misfit(kinds):
-            header = names.table["sensor"][sensor.name].header
-            arguments = header.phrase.arguments if header.phrase else ()
-            places = (each.value.span for each in arguments if each.key.text == flaw.field)
-            findings.error(flaw.code, next(places, header.span), flaw.message, flaw.hint)
+            _report(flaw, names.table["sensor"][sensor.name].header, findings)
+    for memory in memories:
+        if flaw := memory.kind.flaw(kinds):
+            _report(flaw, names.table["memory"][memory.name].header, findings)
     return found
+
+
+def _report(flaw: Flaw, header: Header, findings: Findings) -> None:
+    """Report a flaw where its argument stands."""
+    arguments = header.phrase.arguments if header.phrase else ()
+    places = (each.value.span for each in arguments if each.key.text == flaw.field)
+    findings.error(flaw.code, next(places, header.span), flaw.message, flaw.hint)
+
+
+def _of_place(sensor: Part[Any], places: Collection[str]) -> Part[Any]:
+    """A sensor, reckoned where it is about a memory that is one of these places."""
+    if not (sensor.kind.can_be_reckoned and sensor.kind.of in places):
+        return sensor
+    return replace(sensor, kind=replace_fields(sensor.kind, is_reckoned=True))
 
 
 def _computed(header: Header, visible: Visible, findings: Findings) -> Part[Any]:
@@ -138,10 +159,10 @@ def _broken(sensor: Part[Any], names: Names, visible: Visible, findings: Finding
     return type(sensor.kind)(sensor.kind.broken, formula)
 
 
-def _widths(sensors: Mapping[str, Part[Any]], of_one: Iterable[str]) -> dict[str, int]:
-    """How many readings each sensor and memory has: one that does not say has as many as its source."""
+def _widths(sensors: Mapping[str, Part[Any]], others: Mapping[str, int]) -> dict[str, int]:
+    """How many readings each sensor and memory has, given those of `others`; as many as its source where none says."""
     shapes = {name: each.kind.shape for name, each in sensors.items()}
-    widths = dict.fromkeys(of_one, 1) | {name: prod(shape) for name, shape in shapes.items() if shape is not None}
+    widths = {**others} | {name: prod(shape) for name, shape in shapes.items() if shape is not None}
     sources_first = (name for name in reverse_topological_order(source_graph(sensors.values())) if name in sensors)
     for name in (*sources_first, *sensors):
         widths.setdefault(name, widths.get(sensors[name].kind.source, 1))

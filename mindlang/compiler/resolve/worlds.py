@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Any
 
 from mindrun.graph.draws import Draw
-from mindrun.graph.graph import VARIED_NOUNS, Failure, Start, Variation, Varying, varied_quantity
+from mindrun.graph.graph import VARIED_NOUNS, Failure, Start, Variation, Varying
 from mindrun.kinds.actuators.actuator import REACH_UNITS
 from mindrun.kinds.bodies.body import BodyKind
-from mindrun.kinds.registry import arguments
+from mindrun.kinds.registry import arguments, varied_quantity, varying_of
 from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ThingKind
@@ -260,7 +260,7 @@ class _Variable:
         field = known.get(key.text, "")
         quantity = varied_quantity(kind, field)
         if quantity is None:
-            varying = [word for word, each in known.items() if each in kind.varying]
+            varying = [word for word, each in known.items() if each in varying_of(kind)]
             can = (
                 f"Of {fact.of.text} can vary {listed(varying)}." if varying else f"Nothing of {fact.of.text} can vary."
             )

@@ -62,10 +62,10 @@ def unused_memory(study: Study) -> Found:
             fix = None if name in driven else removal(study.mind.names.table["memory"][name], is_safe=True)
             hint = f"Add reads {name} to a skill, or take the memory out."
             yield Finding(part.span, f"Nobody reads {name}.", hint, fix=fix)
-        elif name not in driven and (cell.start == 0 or cell.decay == 1):
+        elif name not in driven and not cell.changes_alone:
             hint = f"Add drives {name} to a skill, or take the memory out."
             yield Finding(part.span, f"Nobody drives {name}, so it is always {cell.start:g}.", hint)
-        elif cell.decay == 1:
+        elif cell.is_fixed:
             hint = "Write decay 0 to take each command as it comes; drives … when … otherwise its own value holds it."
             yield Finding(part.span, f"With decay 1 no command changes {name}, so it is always {cell.start:g}.", hint)
 

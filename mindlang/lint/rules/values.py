@@ -188,13 +188,13 @@ def direction_as_number(study: Study) -> Found:
             message = f"{of} is a direction: behind the robot it goes from 0 to 1, and {sensor.name} flips there."
             hint = f"Take how far it is off: computed at greatest of {of} (1 - {of}) is 0.5 ahead and 1 behind."
             yield Finding(sensor.span, message, hint)
-    decaying = {memory.name for memory in study.mind.memories if memory.kind.decay > 0}
+    decaying = {memory.name for memory in study.mind.memories if memory.kind.mixes}
     for edge in (edge for _, edge in study.edges if edge.to == "memory" and edge.target in decaying):
         memory = edge.target
         for reading in (term for value in edge.values for term in value.found("reading")):
             if (name := reading.operand) in known:
                 message = f"{name} is a direction, which {memory} mixes as a number: left and right behind it, 0.5."
-                hint = f"Let it hold one, cell decay 0, or read average of {name} over some ticks."
+                hint = f"Let it hold one, register, or read average of {name} over some ticks."
                 yield Finding(reading.span, message, hint)
     for when, *_ in study.conditions:
         yield from _one_sided(when, known)

@@ -103,7 +103,7 @@ def _place(graph: Graph, what: What, name: str) -> tuple[str, int, int]:
         case "influence":
             noun, places = "skill", {name: (number, 1) for name, number in graph.skill_numbers.items()}
         case "memory":
-            noun, places = "memory", {memory.name: (memory.start, 1) for memory in graph.memories}
+            noun, places = "memory", {memory.name: (memory.start, memory.kind.width) for memory in graph.memories}
     if name not in places:
         near = [one] if (one := nearest(name, places)) else sorted(places)
         raise ChangeError(f"there is no {noun} called {name}", f"there is {', '.join(near)}" if near else "")
@@ -122,9 +122,8 @@ class ChangedEngine(Engine):
     def tick_with(self, readings: ArrayLike, made: Changed | None) -> Singles:
         """Commands [actuators] for readings [graph.width] in a tick in which so much is changed."""
         self._made = made or UNCHANGED
-        for number, memory in enumerate(self.graph.memories):
-            if memory.start in self._made["memory"]:
-                self._cells[number] = self._made["memory"][memory.start]
+        for row, value in self._made["memory"].items():
+            self._kept[row - self._sensed] = value
         return self.tick(readings)
 
     def _filled(self, now: Singles) -> Singles:

@@ -14,6 +14,7 @@ from mindrun.graph.procedure_source import source_of
 from mindrun.graph.weights import reachable
 from mindrun.kinds.functions.function import Stateful
 from mindrun.kinds.functions.procedure import used_file
+from mindrun.kinds.memory import UNDRIVEN_COMMAND
 from mindrun.kinds.procedure_text import FILES, Sources, module_of
 from mindrun.kinds.sensors.sensor import Scene, directions
 from mindrun.numbers.arrays import Reader, Singles
@@ -34,10 +35,11 @@ def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> 
 
 def scene_of(graph: Graph) -> Scene:
     """The scene of a graph's sensors: all that they depend on beside their own arguments."""
-    places = {memory.name: slice(memory.start, memory.start + 1) for memory in graph.memories}
+    places = {memory.name: slice(memory.start, memory.start + memory.kind.width) for memory in graph.memories}
     places |= {sensor.name: sensor.place for sensor in graph.sensors}
-    around = directions({sensor.name: sensor.kind for sensor in graph.sensors})
-    return Scene(graph.tick, places, around, graph.skill_numbers)
+    sensors = {sensor.name: sensor.kind for sensor in graph.sensors}
+    kinds = sensors | {memory.name: memory.kind for memory in graph.memories}
+    return Scene(graph.tick, places, directions(sensors), graph.skill_numbers, kinds)
 
 
 def virtual_sensors(graph: Graph) -> tuple[tuple[slice, Reader], ...]:
@@ -48,7 +50,7 @@ def virtual_sensors(graph: Graph) -> tuple[tuple[slice, Reader], ...]:
 
 
 class Engine:
-    """One mind and its state: the tick's number, the readings and influence before, the memory cells.
+    """One mind and its state: the tick's number, the readings and influence before, what memories keep.
 
     `procedures` is the folder of the procedures' modules or their texts by
     dotted name, `master` another skill than the mind's own to be in charge. Raises MindError where one does not fit.
@@ -64,9 +66,9 @@ class Engine:
         self.graph = graph
         self._hierarchy = hierarchy(policy, procedures or {}, master)
         self._neutral = np.array([actuator.kind.neutral for actuator in graph.actuators], np.float32)
-        self._places = np.array([memory.start for memory in graph.memories], np.intp)
-        self._decay = np.array([memory.kind.decay for memory in graph.memories], np.float32)
-        self._rest = np.array([1 - memory.kind.decay for memory in graph.memories], np.float32)
+        self._sensed = sum(sensor.width for sensor in graph.sensors)  # behind these stands what memories keep
+        scene = scene_of(graph)
+        self._keepers = tuple((memory.place, memory.kind.keeper(scene)) for memory in graph.memories)
         self.reset()
 
     def reset(self) -> None:
@@ -77,7 +79,7 @@ class Engine:
         self._virtual = virtual_sensors(self.graph)
         self._tick = 0
         self._before: Singles | None = None
-        self._cells = np.array([memory.kind.start for memory in self.graph.memories], np.float32)
+        self._kept = np.array([m.kind.start for m in self.graph.memories for _ in range(m.kind.kept)], np.float32)
         self.readings = np.zeros(self.graph.width, np.float32)
         self.influence = self._hierarchy.calm[0].copy()
         self.faults = 0
@@ -88,8 +90,11 @@ class Engine:
             self.readings = self._filled(np.array(readings, np.float32))
             thought = self._thought()
             actuators = len(self._neutral)
-            kept = self._decay * self._cells
-            self._cells = np.where(thought.driven[actuators:], kept + self._rest * thought.command[actuators:], kept)
+            commands = np.where(thought.driven, thought.command, np.float32(UNDRIVEN_COMMAND))[actuators:]
+            for (place, keep), command in zip(self._keepers, commands, strict=True):
+                self._kept[place.start - self._sensed : place.stop - self._sensed] = keep(
+                    self.readings[place], command, self.readings
+                )
         self.influence = thought.influence
         self._tick, self._before = self._tick + 1, np.concatenate([self.readings, self.influence])
         self.faults += thought.faults
@@ -98,7 +103,7 @@ class Engine:
     def _filled(self, now: Singles) -> Singles:
         if now.shape != (self.graph.width,):
             raise ReadingsError(f"this mind has {self.graph.width} readings, not {now.shape}")
-        now[self._places] = self._cells
+        now[self._sensed :] = self._kept
         for place, read in self._virtual:
             now[place] = read(self._tick, now, self._before)
         return now

@@ -8,7 +8,7 @@ from mindrun.graph.codec import encode
 from mindrun.graph.graph import Graph
 from mindrun.graph.named_readings import physical
 from mindrun.graph.wiring import Wiring, code_digests, reckoned
-from mindrun.kinds.registry import names
+from mindrun.kinds.registry import arguments, names
 
 
 def describe(bundle: Bundle) -> str:
@@ -26,7 +26,7 @@ def contents(bundle: Bundle) -> dict[str, Any]:
         "sensors": [
             {**_named(s.name, s.kind), "readings": s.width, "computed": s.name not in own} for s in graph.sensors
         ],
-        "memories": [{**_named(m.name, m.kind), "decay": m.kind.decay} for m in graph.memories],
+        "memories": [{**_named(m.name, m.kind), **_said(m.kind)} for m in graph.memories],
         "actuators": [{**_named(a.name, a.kind), "neutral": a.kind.neutral} for a in graph.actuators],
         "skills": [
             {
@@ -64,13 +64,20 @@ def _named(name: str, kind: object) -> dict[str, Any]:
     return {"name": name, "kind": names()[type(kind)]}
 
 
+def _said(kind: Any) -> dict[str, Any]:
+    """The arguments of a kind that differ from their defaults, by key."""
+    said = ((each, getattr(kind, each.field)) for each in arguments(type(kind)))
+    return {each.key: value for each, value in said if value != each.default}
+
+
 def _lines(found: dict[str, Any]) -> Iterator[str]:
     yield f"master {found['master']}, {1 / found['tick']:g} ticks a second"
     for part in found["sensors"]:
         computed = ", computed by the mind itself" if part["computed"] else ""
         yield f"sensor {part['name']} is {part['kind']}: {_counted(part['readings'], 'reading')}{computed}"
     for part in found["memories"]:
-        yield f"memory {part['name']} is {part['kind']}: decay {part['decay']:g}"
+        said = [f"{key} {value:g}" if isinstance(value, float) else f"{key} {value}" for key, value in part.items()]
+        yield f"memory {part['name']} is {part['kind']}" + f": {', '.join(said[2:])}" * (len(said) > 2)
     for part in found["actuators"]:
         yield f"actuator {part['name']} is {part['kind']}: neutral {part['neutral']:g}"
     for part in found["skills"]:

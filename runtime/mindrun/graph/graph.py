@@ -1,7 +1,7 @@
 """The compiled hierarchy as plain data: names as indices, units converted, skills in the order of influence."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from mindrun.graph.draws import Draw
 from mindrun.kinds.actuators.actuator import REACH_UNITS, ActuatorKind
@@ -10,13 +10,13 @@ from mindrun.kinds.events.event import EventKind
 from mindrun.kinds.functions.function import Function
 from mindrun.kinds.learners import Learner, Share
 from mindrun.kinds.measures.measure import MeasureKind
-from mindrun.kinds.memory import Cell
-from mindrun.kinds.registry import arguments, left_out, phrase
+from mindrun.kinds.memory import MemoryKind
+from mindrun.kinds.registry import left_out, phrase
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.kinds.things.thing import ThingKind
 from mindrun.numbers.expression import Program as Program
-from mindrun.numbers.quantity import ANGLE, COORDINATE, Place, Quantity, Ratio
+from mindrun.numbers.quantity import ANGLE, COORDINATE, Place, Ratio
 from mindrun.numbers.short_repr import ShortRepr
 
 Receiver = Literal["skill", "actuator", "memory"]  # of what a skill sends
@@ -42,11 +42,16 @@ class Sensor:
 
 @dataclass(frozen=True, slots=True)
 class Memory:
-    """A memory cell; it reads like a sensor of width 1 at `start`."""
+    """A memory; it reads like a sensor from `start` on. Behind its readings stands what it keeps beside them."""
 
     name: str
-    kind: Cell
+    kind: MemoryKind
     start: int
+
+    @property
+    def place(self) -> slice:
+        """The place of all that it keeps in the vector of readings; of its readings only the first `kind.width` are."""
+        return slice(self.start, self.start + self.kind.kept)
 
 
 @dataclass(frozen=True, slots=True)
@@ -247,12 +252,6 @@ class Failure:
     rate: Ratio
 
 
-def varied_quantity(kind: Any, argument: str) -> Quantity | None:
-    """The quantity of an argument of a kind that can differ from run to run; None where it cannot."""
-    found = (each.type for each in arguments(type(kind)) if each.field == argument and argument in kind.varying)
-    return next((quantity for quantity in found if isinstance(quantity, Quantity)), None)
-
-
 @dataclass(frozen=True, slots=True)
 class Task:
     """A task: its world, its ends, its rewards. `counts` are indices into `events`.
@@ -375,14 +374,14 @@ class Graph(ShortRepr):
 
     @property
     def width(self) -> int:
-        """How many readings there are: those of the sensors, then one per memory."""
-        return sum(sensor.width for sensor in self.sensors) + len(self.memories)
+        """How many readings there are: those of the sensors, then all that memories keep."""
+        return sum(sensor.width for sensor in self.sensors) + sum(memory.kind.kept for memory in self.memories)
 
     @property
     def readings(self) -> list[tuple[str, int]]:
         """The sensor or memory of each reading, and which of its own it is."""
         wide = [(sensor.name, number) for sensor in self.sensors for number in range(sensor.width)]
-        return wide + [(memory.name, 0) for memory in self.memories]
+        return wide + [(memory.name, number) for memory in self.memories for number in range(memory.kind.kept)]
 
     @property
     def skill_numbers(self) -> dict[str, int]:

@@ -50,20 +50,25 @@ def rows_of(graph: Graph, sensors: Iterable[Sensor]) -> Bools:
     found = np.zeros(graph.width, bool)
     for each in sensors:
         found[each.place] = True
-    found[[memory.start for memory in graph.memories]] = True
+    for memory in graph.memories:
+        found[memory.place] = True
     return found
 
 
 def with_sources(graph: Graph, rows: set[int]) -> list[Sensor]:
-    """The sensors that have these readings, and what those derive from; sources first."""
+    """The sensors that have these readings, what those derive from and what memories do; sources first."""
     by_name = {sensor.name: sensor for sensor in graph.sensors}
+    behind = {memory.name: memory.kind.sources for memory in graph.memories}
+    read = {name for row, (name, _) in enumerate(graph.readings) if row in rows}
+    read |= {source for name in read for source in behind.get(name, ())}
     ordered: dict[str, Sensor] = {}
     for sensor in graph.sensors:
-        if rows.intersection(range(sensor.start, sensor.start + sensor.width)):
+        if sensor.name in read:
             waiting = [sensor]
             while waiting:
                 last = waiting[-1]
-                missing = [name for name in last.kind.sources if name in by_name and name not in ordered]
+                sources = [each for name in last.kind.sources for each in behind.get(name, (name,))]
+                missing = [name for name in sources if name in by_name and name not in ordered]
                 if missing:
                     waiting.append(by_name[missing[0]])
                 else:

@@ -20,8 +20,14 @@ def physical(graph: Graph) -> dict[str, Sensor]:
 
 def reading_names(graph: Graph) -> list[str]:
     """The name of every reading: its sensor's or memory's, with a number from 1 where there are several."""
-    several = {sensor.name for sensor in graph.sensors if sensor.width > 1}
+    several = {name for name, number in graph.readings if number}
     return [f"{name} {number + 1}" if name in several else name for name, number in graph.readings]
+
+
+def kept_rows(graph: Graph) -> dict[str, int]:
+    """The place of each number that memories keep in the vector of readings, by the name of that reading."""
+    sensed = graph.width - sum(memory.kind.kept for memory in graph.memories)
+    return {name: row for row, name in enumerate(reading_names(graph)) if row >= sensed}
 
 
 def vector(

@@ -7,10 +7,10 @@ from itertools import chain
 from math import prod
 
 from mindrun.graph.draws import MAX_VALUES, Draw, intervals_of
-from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task, varied_quantity
+from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task
 from mindrun.graph.tasks import unfit_thing, varied_kind
 from mindrun.kinds.functions.procedure import is_inside
-from mindrun.kinds.registry import arguments
+from mindrun.kinds.registry import arguments, varied_quantity
 from mindrun.kinds.sensors.sensor import directions
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ROBOT
 from mindrun.numbers.expression import CHOICES, OPERATORS, is_condition, is_valid_program, leaves
@@ -84,7 +84,9 @@ def lesson_flaws(lesson: Lesson) -> Iterator[str]:
 def _sense_flaws(graph: Graph) -> Iterator[str]:
     """Readings lie side by side, and each sensor has as many as its kind."""
     start, skills = 0, {skill.name for skill in graph.skills}
-    widths = {memory.name: 1 for memory in graph.memories} | {sensor.name: sensor.width for sensor in graph.sensors}
+    widths = {memory.name: memory.kind.width for memory in graph.memories} | {
+        sensor.name: sensor.width for sensor in graph.sensors
+    }
     kinds = {sensor.name: sensor.kind for sensor in graph.sensors}
     around = directions(kinds)
     servos = {"", *(actuator.name for actuator in graph.actuators if actuator.kind.carries)}
@@ -108,8 +110,12 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
         TopologicalSorter({sensor.name: sensor.kind.sources for sensor in graph.sensors}).prepare()
     except CycleError as error:
         yield f"sensor {error.args[1][0]} is the derivative of itself"
-    if [memory.start for memory in graph.memories] != list(range(start, start + len(graph.memories))):
-        yield "the readings of its memories do not follow those of its sensors"
+    for memory in graph.memories:
+        if memory.start != start:
+            yield "the readings of its memories do not follow those of its sensors"
+        if not {*memory.kind.sources} <= kinds.keys() or memory.kind.flaw(kinds):
+            yield f"memory {memory.name} cannot be reckoned"
+        start = memory.place.stop
 
 
 def _skill_flaws(graph: Graph, number: int, skill: Skill, width: int) -> Iterator[str]:

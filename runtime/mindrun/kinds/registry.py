@@ -140,6 +140,18 @@ def named_arguments(cls: type[Any]) -> tuple[Argument, ...]:
     return tuple(each for each in arguments(cls) if each.key != _names[cls] and each.type != SLOT)
 
 
+def varying_of(kind: Any) -> tuple[str, ...]:
+    """The arguments of a kind that can differ from run to run; none of a sensor that is reckoned."""
+    found: tuple[str, ...] = () if getattr(kind, "is_reckoned", False) else kind.varying
+    return found
+
+
+def varied_quantity(kind: Any, argument: str) -> Quantity | None:
+    """The quantity of an argument of a kind that can differ from run to run; None where it cannot."""
+    found = (each.type for each in arguments(type(kind)) if each.field == argument and argument in varying_of(kind))
+    return next((quantity for quantity in found if isinstance(quantity, Quantity)), None)
+
+
 def phrase(kind: object) -> str:
     """A kind with the arguments that differ from their defaults, much as it is written."""
     said = ((argument, getattr(kind, argument.field)) for argument in arguments(type(kind)))

@@ -121,6 +121,24 @@ def bearing(x: Any, y: Any) -> Any:
     return HALF - angle * PER_TURN
 
 
+def stepped(place: Any, way: Any) -> Any:
+    """One number of a place, a float32, after the robot went a float64 `way`; a way that is no way leaves it."""
+    return clamp(F(np.float64(place) - (way if abs(way) <= 1.0 else 0.0)))
+
+
+def reckoned_bearing(east: Any, north: Any, compass: Any) -> Any:
+    """The bearing of a place by its readings and that of a compass; NaN where that failed."""
+    sine, cosine = sine_cosine(2.0 * np.pi * (np.float64(compass) - 0.25))
+    s, c, x, y = F(sine), F(cosine), east - HALF, north - HALF
+    v = bearing(c * x + s * y, c * y - s * x)
+    return v if finite(compass) else NAN
+
+
+def reckoned_distance(east: Any, north: Any, unit: Any) -> Any:
+    """How far a place is by its readings, in units of the world, float64; `unit` is how many the reading 1 is."""
+    return length(np.float64(east) - 0.5, np.float64(north) - 0.5) * unit
+
+
 def length(x: Any, y: Any) -> Any:
     """The length of a way along both axes."""
     return np.sqrt(x * x + y * y)

@@ -16,6 +16,7 @@ Integers = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 Readings = Singles
 Reader = Callable[[int, Readings, Readings | None], Readings | np.float32]  # the tick's number, readings now and before
+Keeper = Callable[[Singles, np.float32, Readings], Singles]  # what a memory keeps, its command, the readings
 Weights = NDArray[np.float32]  # of one skill: [genes]
 WeightsBySkill = Mapping[str, Weights]
 Layers = tuple[tuple[int, int], ...]  # of a network: (values in, values out) of each

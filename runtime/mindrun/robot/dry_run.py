@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mindrun.driver import DeviceError
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph, Task
-from mindrun.graph.named_readings import physical
+from mindrun.graph.named_readings import kept_rows, physical
 from mindrun.graph.recording_header import BOX_COLUMNS, GOES_ON, RecordedWorld, world_row_of
 from mindrun.graph.skill_sets import driving, movers
 from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring, read_by
@@ -137,11 +137,11 @@ class DryRun:
 
     def _follow(self) -> None:
         """After each tick tell the world which memories have changed, for its rewards and ends, and ask how it is."""
-        told = dict[str, float]()
+        told, rows = dict[str, float](), kept_rows(self._graph)
         while (self._graph.memories or self.about) and self._ticked.wait() and not self._stop.is_set():
             self._ticked.clear()
             now = self._readings
-            for name, value in ((each.name, float(now[each.start])) for each in self._graph.memories):
+            for name, value in ((name, float(now[row])) for name, row in rows.items()):
                 if told.get(name) != value:
                     with suppress(DeviceError):  # next time
                         self._link.ask(WRITE, name, value)

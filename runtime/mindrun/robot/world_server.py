@@ -22,6 +22,7 @@ import numpy as np
 
 from mindrun.errors import MindError
 from mindrun.graph.bundle import read_bundle
+from mindrun.graph.named_readings import kept_rows
 from mindrun.graph.recording_header import world_row_of
 from mindrun.robot.processes import end_with_parent
 from mindrun.robot.simulated_world import ANSWER, BOXES, NEUTRAL_SECONDS, READ, REQUEST, STATUS, WORLD, WRITE
@@ -67,7 +68,7 @@ class SimulatedScene:
         self.world = world
         self.commands = {actuator.name: float(actuator.kind.neutral) for actuator in world.graph.actuators}
         self.memories: dict[str, float] = {}
-        self._cells = {memory.name for memory in world.graph.memories}
+        self._cells = kept_rows(world.graph).keys()
         self._places = {s.name: slice(s.start, s.start + s.width) for s in world.graph.sensors}
         self._readings = world.readings().astype("<f8")
 

@@ -90,7 +90,7 @@ ACTUATOR = _columns(
     f4="neutral",
 )
 PARAMETER = _columns(i8="form of", f8="low high")
-MEMORY = _columns(i8="row", f4="decay rest start")
+MEMORY = _columns(i8="row kept left right compass", u8="lane", f8="left_way right_way", f4="decay rest start")
 THING = _columns(
     i8="kind drawn is_round is_fixed reached delivered is_reached is_delivered is_area loose settles walker is_goal "
     "turn copy copies option options is_within inside insides x_row y_row",

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph, Task
+from mindrun.graph.named_readings import kept_rows
 from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import GOES_ON
 from mindrun.graph.run_scores import paid_by_text, score_of
@@ -203,10 +204,10 @@ class CommandedWorld:
         return bool(rows)
 
     def remember(self, cells: Mapping[str, float]) -> None:
-        """Let memories be these in the tick that comes, since the engine that commands has them."""
-        for memory in self.graph.memories:
-            if memory.name in cells:
-                self._state.mind.readings[memory.start, 0] = cells[memory.name]
+        """Let what memories keep be this in the tick that comes, by `kept_rows`: the engine that commands has it."""
+        rows = kept_rows(self.graph)
+        for name, value in cells.items():
+            self._state.mind.readings[rows[name], 0] = value
 
     def step(self, commands: ArrayLike) -> None:
         """Make a tick under commands [actuators]; one that is not finite is neutral. Nothing once it has ended."""

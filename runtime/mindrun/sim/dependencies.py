@@ -28,7 +28,8 @@ HASH_DIGITS = 16  # hexadecimal
 
 def needed_units(entries: Iterable[Unit], tables: Any) -> list[Unit]:
     """These units and all that they call under some tables, those of kinds among them."""
-    rows = np.concatenate([tables.sensors["lane"], tables.skills["lane"][tables.skills["address"] == 0]])
+    skills = tables.skills["lane"][tables.skills["address"] == 0]
+    rows = np.concatenate([tables.sensors["lane"], skills, tables.memories["lane"]])
     places, found, waiting = {*rows.tolist()}, dict[Unit, None](), [*entries]
     waiting += [each for each in [*UNITS.values()] if each.place in places]
     while waiting:

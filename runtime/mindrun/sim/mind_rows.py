@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Edge, Graph, Program, Skill
 from mindrun.graph.scopes import Scopes, influence_scopes
 from mindrun.graph.weights import NO_WEIGHTS, genes, weights_of
@@ -13,7 +14,7 @@ from mindrun.kinds.registry import names
 from mindrun.numbers.arrays import Array, Singles
 from mindrun.numbers.stack_machine import COMMAND, NEGATE, NUMBER, OPERATIONS
 from mindrun.sim.codes import ACTUATOR, ACTUATOR_CODES, EDGE, MEMORY, SKILL, Row, records
-from mindrun.sim.kind_lanes import compute, unit_of
+from mindrun.sim.kind_lanes import compute, remember, unit_of
 from mindrun.sim.parameter_rows import SAME_IN_EVERY_RUN, Parameters
 
 VARYING_COLUMNS = {
@@ -148,6 +149,12 @@ def actuator_rows(graph: Graph, parameters: Parameters) -> tuple[Array, int]:
 
 
 def memory_rows(graph: Graph) -> Array:
-    rows = [(memory.start, memory.kind) for memory in graph.memories]
-    cells = [{"row": row, "decay": cell.decay, "rest": 1.0 - cell.decay, "start": cell.start} for row, cell in rows]
-    return records(cells, MEMORY)
+    scene = scene_of(graph)
+    rows: list[Row] = [
+        {
+            "lane": unit_of(each.kind, remember).place, "row": each.start, "kept": each.kind.kept,
+            "start": each.kind.start, **each.kind.row(scene),
+        }
+        for each in graph.memories
+    ]  # fmt: skip
+    return records(rows, MEMORY)

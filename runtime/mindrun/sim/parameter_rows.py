@@ -7,8 +7,9 @@ from dataclasses import replace
 from typing import Any, TypeVar
 
 from mindrun.graph.draws import Draw
-from mindrun.graph.graph import Graph, Task, Variation, Varying, varied_quantity
+from mindrun.graph.graph import Graph, Task, Variation, Varying
 from mindrun.graph.tasks import varied_kind
+from mindrun.kinds.registry import varied_quantity
 from mindrun.numbers.arrays import Array
 from mindrun.sim import codes
 from mindrun.sim.codes import Row, records

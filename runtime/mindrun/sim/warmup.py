@@ -9,7 +9,7 @@ from mindrun.kinds.registry import kinds
 from mindrun.processors import give_way
 from mindrun.sim import cache
 from mindrun.sim.compilation import IN_BACKGROUND
-from mindrun.sim.kind_lanes import compute, read, unit_of
+from mindrun.sim.kind_lanes import compute, read, remember, unit_of
 from mindrun.sim.lanes import advance  # noqa: F401  whose units these are
 from mindrun.sim.units import UNITS, Unit
 
@@ -18,7 +18,7 @@ LOWEST_NICENESS = 19  # how little a process matters that works while others wai
 
 def every_unit() -> list[Unit]:
     """All units that there are, with those of every kind."""
-    for noun, form in (("sensor", read), ("skill", compute)):
+    for noun, form in (("sensor", read), ("skill", compute), ("memory", remember)):
         for kind in kinds(noun).values():
             unit_of(kind, form)
     return [*UNITS.values()]

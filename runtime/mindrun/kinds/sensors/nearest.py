@@ -1,32 +1,79 @@
 """Sensors of a thing, of several the nearest: where it is, how far away, and how bright."""
 
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
 from math import inf
 from typing import TYPE_CHECKING, Any
 
 from mindrun.kinds.registry import kind, left_out
-from mindrun.kinds.sensors.sensor import Physical, Ranging, Row, Scene
+from mindrun.kinds.sensors.sensor import Flaw, Physical, Ranging, Row, Scene
 from mindrun.numbers.quantity import Length, Positive, Ratio, ServoName, ThingName
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
     from mindrun.numbers.arithmetic import *
+    from mindrun.numbers.arrays import Reader, Readings
+
+ROUGH = {"noise": 0.0, "lost": 0.0, "every": 1, "delay": 0, "on": ""}  # what only a sensor that measures has
+
+
+class AboutPlace(Physical):
+    """A sensor of a thing, or of a memory that is a place: then it `is_reckoned` from that, and nothing measures it."""
+
+    __slots__ = ()
+
+    of: str
+    is_reckoned: bool
+
+    can_be_reckoned = True
+
+    @property
+    def things(self) -> tuple[str, ...]:
+        return () if self.is_reckoned else super().things
+
+    @property
+    def source(self) -> str:
+        return self.of if self.is_reckoned else ""
+
+    @property
+    def is_given(self) -> bool:  # type: ignore[override]
+        return not self.is_reckoned
+
+    def flaw(self, widths: Mapping[str, int], directions: Collection[str]) -> Flaw | None:
+        """The argument of a sensor that measures; it is not said where a memory is meant."""
+        for field, unsaid in ROUGH.items() if self.is_reckoned else ():
+            if getattr(self, field, unsaid) != unsaid:
+                message = f"{self.of} is a memory, so this is reckoned, and has no {field}."
+                hint = "Leave it out; what is imperfect are the odometers and the compass."
+                return Flaw("reckoned-sensor", field, message, hint)
+        return None
+
+    def row(self, scene: Scene) -> Row:
+        compass = {"part": scene.starts[scene.kinds[self.of].compass]} if self.is_reckoned else {}
+        return {**Physical.row(self, scene), **compass}
+
+    def gain(self, scene: Scene) -> float:
+        """How many units 1 is in the readings of the place; 0 of a thing."""
+        return 2.0 * scene.kinds[self.of].range if self.is_reckoned else 0.0
 
 
 @kind("sensor", "bearing")
-class Bearing(Physical):
+class Bearing(AboutPlace):
     """Direction of a thing: 0.5 straight ahead, less on the left, more on the right; 0.5 without it.
 
     It goes round: noise leads from 0 to 1, which are both behind.
     0.5 − atan2(y, x)/2π in the body's frame, of several the nearest's; of an obstacle, a wall or a map its nearest
     point's. Within `dead_zone` of straight ahead it reads 0.5; with a `range`, a thing farther away than that, too.
-    `on` a servo, straight ahead is where that looks.
+    `on` a servo, straight ahead is where that looks. Of a memory that is a place it is reckoned, by its compass.
     """
 
     of: ThingName
     range: Length = 0.0
     dead_zone: Ratio = 0.0
     on: ServoName = left_out("")
+    is_reckoned: bool = left_out(False, is_argument=False)
 
     circular = True
     scaled = True
@@ -34,11 +81,35 @@ class Bearing(Physical):
     is_about = staticmethod(lambda kind: True)  # whatever there is
 
     def row(self, scene: Scene) -> Row:
-        return {**Physical.row(self, scene), "range": self.range or inf}
+        return {**AboutPlace.row(self, scene), "range": self.range or inf}
+
+    def reader(self, scene: Scene) -> Reader | None:
+        if not self.is_reckoned:
+            return None
+        import numpy as np
+
+        from mindrun.numbers.arithmetic import HALF, reckoned_bearing, reckoned_distance
+
+        place, compass = scene.starts[self.of], scene.starts[scene.kinds[self.of].compass]
+        unit, dead_zone, most = np.float32(self.gain(scene)), np.float32(self.dead_zone), self.range or inf
+
+        def read(number: int, now: Readings, before: Readings | None) -> np.float32:
+            v = reckoned_bearing(now[place], now[place + 1], now[compass])
+            v = HALF if abs(v - HALF) < dead_zone else v
+            return np.float32(v if reckoned_distance(now[place], now[place + 1], unit) <= most else HALF)
+
+        return read
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         out = s.readings[sensor.start]
+        if sensor.gain > ZERO:
+            east, north, facing = s.readings[sensor.source], s.readings[sensor.source + 1], s.readings[sensor.part]
+            for p in range(n):
+                v = reckoned_bearing(east[p], north[p], facing[p])
+                v = HALF if abs(v - HALF) < sensor.dead_zone else v
+                out[p] = v if reckoned_distance(east[p], north[p], sensor.gain) <= sensor.range else HALF
+            return
         thing = nearest(s, sensor, n)
         x, y, away = thing[X], thing[Y], thing[DISTANCE]
         for p in range(n):
@@ -50,22 +121,43 @@ class Bearing(Physical):
 
 
 @kind("sensor", "distance")
-class Distance(Ranging):
+class Distance(AboutPlace, Ranging):
     """Distance from the body's rim to that of a thing, of several the nearest: 0 touching, 1 from `range` on or none.
 
     (distance of the middles − where the body ends in that direction − size / 2) / range: a square is taken for the disc
-    in it. Of an obstacle, a wall or a map it is to the nearest point, which has no size.
+    in it. Of an obstacle, a wall or a map it is to the nearest point, which has no size. Of a memory that is a place it
+    is reckoned, from the body's middle.
     """
 
     of: ThingName
     range: Positive = 40.0
+    is_reckoned: bool = left_out(False, is_argument=False)
 
     remedy = "Let a task contain what it is about"
     is_about = staticmethod(lambda kind: True)  # whatever there is
 
+    def reader(self, scene: Scene) -> Reader | None:
+        if not self.is_reckoned:
+            return None
+        import numpy as np
+
+        from mindrun.numbers.arithmetic import clamp, reckoned_distance
+
+        place, unit, most = scene.starts[self.of], np.float32(self.gain(scene)), self.range
+
+        def read(number: int, now: Readings, before: Readings | None) -> np.float32:
+            return np.float32(clamp(np.float32(reckoned_distance(now[place], now[place + 1], unit) / most)))
+
+        return read
+
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
         out = s.readings[sensor.start]
+        if sensor.gain > ZERO:
+            east, north = s.readings[sensor.source], s.readings[sensor.source + 1]
+            for p in range(n):
+                out[p] = clamp(F(reckoned_distance(east[p], north[p], sensor.gain) / sensor.range))
+            return
         thing, body = nearest(s, sensor, n), t.world[0]
         away, size, radius = thing[DISTANCE], thing[SIZE], body.radius
         if body.is_round:

@@ -42,14 +42,15 @@ class Flaw(NamedTuple):
 class Scene:
     """All that a sensor can depend on beside its own arguments.
 
-    The length of a `tick` in seconds, where the readings of each sensor and memory stand, which are directions, and
-    where the influence of each skill stands: of the tick before, in the engine behind that one's readings.
+    The length of a `tick` in seconds, where the readings of each sensor and memory stand, which are directions, where
+    the influence of each skill stands (of the tick before, in the engine behind that one's readings), and the kinds.
     """
 
     tick: float
     places: Mapping[str, slice]
     directions: Set[str] = frozenset()
     skills: Mapping[str, int] = field(default_factory=dict)
+    kinds: Mapping[str, Any] = field(default_factory=dict)  # of sensors and memories, by name
 
     @property
     def starts(self) -> Mapping[str, int]:
@@ -74,6 +75,8 @@ class SensorKind(AboutThing, OfEnvironment):
     is_given = False  # whether somebody has to read it: the engine does not compute it
     is_order = False  # whether it is what somebody says
     needs_driver = True  # whether on a robot it is not known without one
+    can_be_reckoned = False  # whether it may be about a memory that is a place
+    is_reckoned = False  # whether it is
     keeps_lost = False  # whether a reading that fails is the one before, and not `blank`
     remembered = 0  # how many numbers the lanes keep of each of its readings
     blank, rest = 0.0, 0.0  # what it reads where there is nothing to measure, and in its dead zone

@@ -1,14 +1,15 @@
-"""Act: the commands that the influence makes (Eq. 3), their delays, and the claw; the memory cells when all is done."""
+"""Act: the commands that the influence makes (Eq. 3), their delays, and the claw; the memories when all is done."""
 
 import numpy as np
 
+from mindrun.kinds.memory import UNDRIVEN_COMMAND
 from mindrun.numbers.arithmetic import *
 from mindrun.sim.codes import GRIPPER, ITEM, SERVO, Tables
+from mindrun.sim.kind_lanes import remember
 from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred, is_blocked, is_walled
 from mindrun.sim.state import State
 from mindrun.sim.units import unit, unit_where
 
-UNDRIVEN = F(-1)
 STANDING_UNITS = 1e-3  # a second: what rolls more slowly stands still
 
 
@@ -38,18 +39,12 @@ def act(tables: Tables, state: State, lanes: int) -> None:
 
 
 def recall(tables, state, lanes):
-    """Update the memory cells for the next tick; rewards of this one have read them as its skills did.
-
-    decay·cell + (1 − decay)·command where a skill drives a cell, else decay·cell.
-    """
+    """Update the memories for the next tick; rewards of this one have read them as its skills did."""
     mind, faults = state.mind, state.run.faults
     for i in range(len(tables.memories)):
         memory, sink = tables.memories[i], len(tables.actuators) + i
-        means(mind.command_sums[sink], mind.influence_sums[sink], UNDRIVEN, mind.sent, faults, lanes)
-        cell, decay, rest = mind.readings[memory.row], memory.decay, memory.rest
-        for lane in range(lanes):
-            kept = decay * cell[lane]
-            cell[lane] = kept + rest * mind.sent[lane] if mind.sent[lane] >= ZERO else kept
+        means(mind.command_sums[sink], mind.influence_sums[sink], F(UNDRIVEN_COMMAND), mind.sent, faults, lanes)
+        remember(memory.lane, tables, mind, memory, lanes)
 
 
 def means(total, weight, neutral, out, faults, lanes):

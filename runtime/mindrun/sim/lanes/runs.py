@@ -153,7 +153,8 @@ def reset(tables, state, lane):
         for k in range(actuator.delay):
             mind.late[actuator.ring + k, lane] = actuator.neutral
     for i in range(len(tables.memories)):
-        mind.readings[tables.memories[i].row, lane] = tables.memories[i].start
+        for k in range(tables.memories[i].kept):
+            mind.readings[tables.memories[i].row + k, lane] = tables.memories[i].start
     judge.lines[:, lane], judge.left_changes[:, lane], judge.right_changes[:, lane] = 0.0, 0.0, 0.0
     judge.tallies[:, lane], judge.stretches[:, lane] = 0.0, 0.0
     judge.counts[:, lane], judge.visited[lane], judge.arrived[:, lane], judge.left[:, lane] = 0, 0, 0, 0
