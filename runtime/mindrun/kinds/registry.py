@@ -80,10 +80,15 @@ class Argument:
 
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))
 def kind(noun: str, name: str) -> Callable[[type[T]], type[T]]:
-    """Make a class a frozen dataclass with slots, if it is none yet, and register it as the kind `name` of `noun`."""
+    """Make a class a frozen dataclass with slots, if it is none yet, and register it as the kind `name` of `noun`.
+
+    ValueError where it is one of a package that cannot be: the name of a function of one's own has a dot.
+    """
 
     def register(cls: type[T]) -> type[T]:
         cls = cls if "__dataclass_fields__" in vars(cls) else dataclass(frozen=True, slots=True)(cls)
+        if _top(cls.__module__) != "mindrun" and (why := _mistake(noun, name, cls)):
+            raise ValueError(why)
         _kinds[noun][name] = cls
         _names[cls] = name
         return cls
@@ -131,38 +136,33 @@ def _import_packages() -> None:
 
 def _import_package(entry: "EntryPoint") -> str:
     """Why no kind of a package's module can be used; empty where all can."""
-    before, mistakes = {noun: {**known} for noun, known in _kinds.items()}, list[str]()
+    why = ""
     try:
         entry.load()
     except (Exception, SystemExit) as error:
-        mistakes.append(f"{type(error).__name__}: {text_of(error)}")
-    new = [(noun, name, cls) for noun, known in _kinds.items() for name, cls in known.items()]
-    new = [each for each in new if before.get(each[0], {}).get(each[1]) is not each[2] and not _is_own(each[2])]
-    mistakes += [said for each in new if (said := _mistake(*each, each[1] in before.get(each[0], {})))]
-    for noun, name, cls in new:
-        if not mistakes:
-            _brought[cls] = entry
-            continue
-        del _kinds[noun][name], _names[cls]
-        _kinds[noun] |= before.get(noun, {})
-    return mistakes[0] if mistakes else ""
+        why = f"{type(error).__name__}: {text_of(error)}"
+    for noun, name, cls in [(noun, name, cls) for noun, known in _kinds.items() for name, cls in known.items()]:
+        if cls not in _brought and _top(cls.__module__) == _top(entry.module):
+            if why:
+                del _kinds[noun][name], _names[cls]
+            else:
+                _brought[cls] = entry
+    return why
 
 
-def _is_own(cls: type[Any]) -> bool:
-    return cls.__module__.startswith("mindrun.")
-
-
-def _mistake(noun: str, name: str, cls: type[Any], is_taken: bool) -> str:
-    """Why a package cannot bring this kind; empty where it can."""
+def _mistake(noun: str, name: str, cls: type[Any]) -> str:
+    """Why nobody outside of mindrun can bring this kind; empty where one can."""
+    other = _kinds[noun].get(name)
     if noun != "skill" or not any(issubclass(cls, each) for each, of in _bases.items() if of == noun):
         return f"{name} is no function of a skill, and only these can be of one's own"
     if not fullmatch(r"[a-z]\w*(\.[a-z]\w*)+", name):
         return f"{name} is no name with a dot, such as lab.{name.lower()}: those without are the language's"
-    try:
-        arguments(cls)
-    except (TypeError, NameError) as error:
-        return f"{name}: {error}"
-    return f"there is another {name}" if is_taken else ""
+    arguments(cls)
+    return f"{other.__module__} has a kind {name}, too" if other and other.__module__ != cls.__module__ else ""
+
+
+def _top(module: str) -> str:
+    return module.partition(".")[0]
 
 
 def brought_by(cls: type[Any]) -> tuple[str, str] | None:
