@@ -43,8 +43,10 @@ def missing(wanted: str, digest: str) -> str:
     found = [entry for entry in entries() if package(entry).partition(" ")[0] == name]
     if not found:
         return f"this mind needs {wanted}, which is not installed: pip install '{wanted.replace(' ', '==')}'"
+    if wanted not in map(package, found):
+        return f"this mind needs {wanted}, and {package(found[0])} is installed: {REBUILD}"
     if digest not in map(package_digest, found):
-        return f"{package(found[0])} is installed, and its code is not that of {wanted} in the bundle: {REBUILD}"
+        return f"the code of {wanted} is not that with which this bundle was built: {REBUILD}"
     return ""
 
 
