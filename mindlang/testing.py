@@ -12,16 +12,20 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
 from mindrun.kinds.functions.function import Function
 from mindrun.kinds.registry import names
-from mindrun.numbers.arrays import Singles
+from mindrun.numbers.arrays import Array, Singles
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source
 
-SIZES = ((1, 1), (3, 2), (9, 5))  # range finders that it reads, and memories that it drives beside both wheels
-SCALES = (1.0, 0.0, 1e-3, 1e2, 1e30)  # of the weights, one after the other
-STEPS = 16.0  # weights and inputs on such a grid have the same sums in any order
+FINDERS_AND_MEMORIES = (
+    (1, 1),
+    (3, 2),
+    (9, 5),
+)  # range finders that it reads, and memories that it drives beside both wheels
+WEIGHT_SCALES = (1.0, 0.0, 1e-3, 1e2, 1e30)  # of the weights, one after the other
+GRID_STEPS = 16.0  # weights and inputs on such a grid have the same sums in any order
 WORLD = """
 tick 1/60 s
 master Top
@@ -59,10 +63,10 @@ def check_kind(kind: type[Function] | Function, rows: int = 10_000, seed: int = 
     name = names().get(type(function))
     _hold(name is not None, f"{type(function).__name__} is no kind: it has no @kind above it")
     _hold(decode(Function, encode(function), "it") == function, f"{name} is not read as it was written")
-    for size in SIZES:
+    for size in FINDERS_AND_MEMORIES:
         graph, rng = _graph(function, *size), np.random.default_rng(seed)
         skill = next(each for each in graph.skills if each.name == "Own")
-        _agrees(f"{name} with {len(skill.inputs)} inputs", graph, skill, rows // len(SIZES), rng)
+        _agrees(f"{name} with {len(skill.inputs)} inputs", graph, skill, rows // len(FINDERS_AND_MEMORIES), rng)
         if genes(skill):
             _meets_nobody(str(name), graph, skill, rng)
         _can_be_reordered(str(name), skill, rng)
@@ -79,7 +83,7 @@ def _graph(function: Function, finders: int, cells: int) -> Graph:
     driven = "\n".join(f"  drives m{number}" for number in range(cells))
     text = WORLD.format(angles=angles, cells=declared, driven=driven)
     graph = compile_source(Source("own.mind", text), Path("own.mind")).graph
-    _hold(graph is not None, "this world is no mind any more: tell us")
+    assert graph is not None
     skills = (replace(skill, function=function) if skill.name == "Own" else skill for skill in graph.skills)
     return replace(graph, skills=tuple(skills))
 
@@ -87,7 +91,8 @@ def _graph(function: Function, finders: int, cells: int) -> Graph:
 def _genome(skill: Skill, scale: float, rng: np.random.Generator) -> Singles:
     drawn = skill.function.draw(len(skill.inputs), skill.outputs, 1, rng)[0]
     _hold(drawn.shape == (genes(skill),), f"draw gives weights of the shape {drawn.shape} instead of ({genes(skill)},)")
-    return (drawn * np.float32(scale)).astype(np.float32)
+    genome: Singles = (drawn * np.float32(scale)).astype(np.float32)
+    return genome
 
 
 def _agrees(name: str, graph: Graph, skill: Skill, rows: int, rng: np.random.Generator) -> None:
@@ -95,7 +100,7 @@ def _agrees(name: str, graph: Graph, skill: Skill, rows: int, rng: np.random.Gen
     learns, ticks = genes(skill) > 0, 0
     rollout = Rollout(Policy(graph, {}), "World", "Top", ["Own"] if learns else [])
     for run in count():
-        genome = _genome(skill, SCALES[run % len(SCALES)], rng)
+        genome = _genome(skill, WEIGHT_SCALES[run % len(WEIGHT_SCALES)], rng)
         engine = Engine(Policy(graph, {"Own": genome} if learns else {}))
         moments = [*trace(rollout, run, genome).moments]
         first = [engine.tick(moment.readings) for moment in moments]
@@ -127,12 +132,12 @@ def _meets_nobody(name: str, graph: Graph, skill: Skill, rng: np.random.Generato
 
 def _can_be_reordered(name: str, skill: Skill, rng: np.random.Generator) -> None:
     inputs, outputs = len(skill.inputs), skill.outputs
-    genome = np.rint(_genome(skill, 1.0, rng) * STEPS) / np.float32(STEPS)
+    genome = np.rint(_genome(skill, 1.0, rng) * GRID_STEPS) / np.float32(GRID_STEPS)
     reads, sends = rng.permutation(inputs).tolist(), rng.permutation(outputs).tolist()
     one = skill.function.ready(inputs, outputs, genome, {})
     other = skill.function.ready(inputs, outputs, skill.function.reordered(genome, reads, sends), {})
     for _ in range(20):
-        values = (rng.integers(0, 17, inputs) / STEPS).astype(np.float32)
+        values = (rng.integers(0, 17, inputs) / GRID_STEPS).astype(np.float32)
         said, turned = one(values)[sends], other(values[reads])
         _hold(
             bool(np.allclose(said, turned, 1e-4, 1e-4, equal_nan=True)),
@@ -140,5 +145,5 @@ def _can_be_reordered(name: str, skill: Skill, rng: np.random.Generator) -> None
         )
 
 
-def _same(one: Singles, other: Singles) -> bool:
+def _same(one: Array, other: Array) -> bool:
     return np.array_equal(one, other, equal_nan=True)

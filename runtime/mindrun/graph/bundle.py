@@ -160,8 +160,8 @@ def _refuse_missing(packages: object) -> None:
     if not isinstance(packages, dict) or not all(isinstance(digest, str) for digest in packages.values()):
         raise BundleError("this bundle's packages are no packages")
     for name, digest in packages.items():
-        if why := missing(name, digest):
-            raise BundleError(why)
+        if lack := missing(name, digest):
+            raise BundleError(lack)
         if why := refused_packages().get(name):
             raise BundleError(f"{name} cannot be imported: {why}")
 

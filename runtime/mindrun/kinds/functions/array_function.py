@@ -96,7 +96,7 @@ class RunningArrays:
     def __call__(self, inputs: Singles) -> Singles:
         """The outputs for inputs [inputs], before the clamp; the state goes on."""
         sent, self.state = self.function.computed(inputs[None], self.weights, self.state, self.outputs)
-        return sent[0]
+        return sent[0]  # type: ignore[no-any-return]
 
 
 def _fixed(values: Singles) -> Singles:
