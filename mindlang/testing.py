@@ -33,11 +33,13 @@ body Robot is disc
 actuator left_wheel is wheel side left neutral 0.5
 actuator right_wheel is wheel side right neutral 0.5
 sensor feelers is range_finder at {angles} deg
+sensor ball_bearing is bearing of ball
 sensor pulse is sine period 1/3 s
 {cells}
 skill Top is rule
   reads pulse
-  influences Own at 4 * pulse - 2
+  reads ball_bearing
+  influences Own at 4 * pulse * ball_bearing - 1
 skill Own is mlp
   reads feelers
   drives left_wheel
