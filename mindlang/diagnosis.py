@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Literal
 
 import mindrun
+from mindrun.kinds.registry import brought_by, kinds, refused_packages
 from mindrun.processors import cores
 from packaging.requirements import Requirement
 from packaging.specifiers import SpecifierSet
@@ -205,4 +206,14 @@ def extras() -> list[str]:
     return metadata("mindlang").get_all("Provides-Extra") or []
 
 
-CHECKS = (programs, python, machine, packages, machine_code, physics, viewer, browser, extra_packages)
+def kind_packages() -> Iterator[DoctorFinding]:
+    """The packages that bring functions of skills."""
+    refused, skills = refused_packages(), kinds("skill").items()
+    brought = [(found[0], name) for name, cls in skills if (found := brought_by(cls))]
+    for package, name in brought:
+        yield DoctorFinding(name, "ok", f"a function of {package}")
+    for package, why in refused.items():
+        yield DoctorFinding(package, "wrong", f"its kinds cannot be used: {why}", "mend or uninstall it")
+
+
+CHECKS = (programs, python, machine, packages, kind_packages, machine_code, physics, viewer, browser, extra_packages)

@@ -10,7 +10,7 @@ from inspect import cleandoc
 from typing import Any
 
 import mindrun.graph.graph  # noqa: F401  (it knows all kinds)
-from mindrun.kinds.registry import Argument, arguments, kinds, names
+from mindrun.kinds.registry import Argument, arguments, brought_by, kinds, names
 from mindrun.numbers.quantity import FARTHEST_UNITS, UNSAID, Quantity, Reference, Span
 from mindrun.robot.driver_support import ADDRESS
 
@@ -140,14 +140,16 @@ def kind_article(of: str, name: str) -> Article:
     """The kind of a noun of the registry with that name."""
     cls, noun = kinds(of)[name], SAID_AS[of]
     more = named_sections("kinds.md").get((noun, name), NO_SECTION)
+    text, package = "\n\n".join(filter(None, _texts(cls))), brought_by(cls)
+    title, _, rest = text.partition("\n\n")
     return Article(
         name,
         noun,
-        f"kind of {noun}",
+        f"kind of {noun}, of {package[0]}" if package else f"kind of {noun}",
         _SAID[noun][1],
-        more.title,
-        "\n\n".join(filter(None, _texts(cls))),
-        tuple(parameter(each, _purpose(noun, name, each.key)) for each in arguments(cls)),
+        title if package else more.title,
+        rest if package else text,
+        tuple(parameter(each, "" if package else _purpose(noun, name, each.key)) for each in arguments(cls)),
         more.scale,
         right=more.labelled("mind"),
     )

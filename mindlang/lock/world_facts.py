@@ -19,7 +19,7 @@ from mindrun.graph.skill_sets import genes, reachable
 from mindrun.graph.tasks import physics
 from mindrun.kinds.environment import module_beside
 from mindrun.kinds.functions.procedure import module_source, used_file
-from mindrun.kinds.registry import arguments, kinds, later_fields, names, phrase
+from mindrun.kinds.registry import arguments, brought_by, kinds, later_fields, names, phrase
 from mindrun.numbers.expression import TRUTHS, fold, leaves
 from mindrun.numbers.quantity import EXPRESSION, FARTHEST_UNITS, UNSAID, Quantity, Reference
 
@@ -133,7 +133,9 @@ class Worlds:
     def _skill(self, skill: Skill) -> dict[str, Any]:
         """The facts of a skill that its weights do not say: all of it where it does not learn."""
         fixed = [edge for edge in skill.edges if edge.programs or edge.cuts or edge.over]
+        package = brought_by(type(skill.function))
         sends = {"sends": sorted(map(self._sends, fixed)), **({"chooses": "one"} if skill.chooses else {})}
+        sends |= {"of": package[0]} if package else {}
         if skill.like:
             return {"like": skill.like, **self._instead(skill), **sends}
         if genes(skill):

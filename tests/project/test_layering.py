@@ -103,6 +103,7 @@ def test_weights_are_put_beside_a_graph_in_few_places() -> None:
         "mindlang/training/teaching.py": "a run has those of its subject, which is arranged",
         "mindlang/training/retention.py": "a lesson of a subject, which is arranged",
         "mindlang/propose/trial.py": "arranged there, for each candidate",
+        "mindlang/testing.py": "drawn there for its graph, in its order",
         "mindlang/view/learning.py": "a run has those of its mind, which is arranged",
         "runtime/mindrun/graph/bundle.py": "a bundle has both, sealed",
         "runtime/mindrun/sim/commanded_lanes.py": "none",

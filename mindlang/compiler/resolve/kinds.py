@@ -7,7 +7,7 @@ from typing import Any
 
 from mindrun.kinds.events.event import WITHIN_TICKS, Within
 from mindrun.kinds.registry import Argument as Parameter
-from mindrun.kinds.registry import arguments, find_kind, kinds
+from mindrun.kinds.registry import arguments, find_kind, kinds, refused_packages
 from mindrun.kinds.things.thing import OR, ROBOT, WITHIN, AboutThing
 from mindrun.numbers.quantity import COORDINATE, SLOT, THING, Quantity, Reference
 
@@ -91,8 +91,12 @@ def _known_kinds(noun: str, name: str, scope: Scope) -> str:
     """The hint for a kind that a noun does not have."""
     if noun == "content" and name == "door":
         return "A door is a wall that opens: write wall here, and below it opens gate on 2 delivery of key."
+    if noun == "skill" and "." in name and (refused := refused_packages()):
+        return " ".join(f"{package} has kinds that cannot be used: {why}." for package, why in refused.items())
     if hint := did_you_mean(name, kinds(noun)):
         return hint
+    if noun == "skill" and "." in name:
+        return "A kind with a dot is brought by a package: install it here. `mindc kinds skill` lists those that are."
     known = f"Known are {listed(sorted(kinds(noun)), 'and')}."
     if noun == "event" and (name in kinds("measure") or scope.names.noun_of(name, ("sensor", "memory"))):
         return f"{name} has a value in every tick: write per tick instead of on. {known}"

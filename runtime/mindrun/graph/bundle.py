@@ -22,8 +22,9 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.validate import graph_flaw
 from mindrun.graph.weights import genes, read_weights
 from mindrun.graph.wiring import Wiring, flaws
+from mindrun.kinds.packages import missing
 from mindrun.kinds.procedure_text import FILES, Sources
-from mindrun.kinds.registry import kinds
+from mindrun.kinds.registry import brought_by, kinds, refused_packages
 from mindrun.numbers.short_repr import ShortRepr
 
 # A mindrun that knows nothing of wirings refuses a bundle that has one.
@@ -83,7 +84,7 @@ def digest(path: Path) -> str:
 def pack(bundle: Bundle) -> bytes:
     members = _members(bundle)
     modules = [name for name, content in bundle.procedures.items() if isinstance(content, str)]
-    manifest = _manifest(bundle.graph.master, bundle.policy.weights, modules, bundle.wiring, members)
+    manifest = _manifest(bundle.graph, bundle.policy.weights, modules, bundle.wiring, members)
     files = [(MANIFEST, _json(manifest)), *sorted(members.items())]
     data = write_archive(files, comment=bytes(DIGEST_CHARACTERS))[:-DIGEST_CHARACTERS]
     data += sha256(data).hexdigest().encode()
@@ -119,16 +120,19 @@ def _members(bundle: Bundle) -> dict[str, bytes]:
 
 
 def _manifest(
-    master: str, skills: Iterable[str], modules: Iterable[str], wiring: Wiring | None, members: Mapping[str, bytes]
+    graph: Graph, skills: Iterable[str], modules: Iterable[str], wiring: Wiring | None, members: Mapping[str, bytes]
 ) -> dict[str, Any]:
-    """The manifest of a bundle and its files: nothing that does not follow from them."""
+    """The manifest of a bundle and its files: nothing that does not follow from them, and the packages of its kinds."""
+    packages = dict(found for skill in graph.skills if (found := brought_by(type(skill.function))))
     return {
         "format": WIRED if wiring else FORMAT,
-        "master": master,
+        "master": graph.master,
         "members": {name: sha256(content).hexdigest() for name, content in members.items()},
         "skills": sorted(skills),
         "procedures": sorted(modules),
-    } | ({"wiring": fingerprint(wiring)} if wiring else {})
+        **({"wiring": fingerprint(wiring)} if wiring else {}),
+        **({"packages": packages} if packages else {}),
+    }
 
 
 def _bundle(members: dict[str, bytes]) -> Bundle:
@@ -136,18 +140,30 @@ def _bundle(members: dict[str, bytes]) -> Bundle:
     manifest = parsed(members.pop(MANIFEST, b""))
     if not isinstance(manifest, dict) or manifest.get("format") not in (FORMAT, WIRED):
         raise BundleError(_foreign(manifest))
+    _refuse_missing(manifest.get("packages", {}))
     graph = decode(migrated(_document(members, GRAPH)))
     weights = {name: read_weights(content) for name, content in _below(members, WEIGHTS, ".npy")}
     procedures = {name.replace("/", "."): content.decode() for name, content in _below(members, MODULES, ".py")}
     files = {f"{FILES}{name}": content for name, content in _below(members, FILES, "")}
     wiring = decode_wiring(_document(members, WIRING), graph) if manifest["format"] == WIRED else None
     known = 1 + len(weights) + len(procedures) + len(files) + (wiring is not None)
-    if manifest != _manifest(graph.master, weights, procedures, wiring, members) or len(members) != known:
+    if manifest != _manifest(graph, weights, procedures, wiring, members) or len(members) != known:
         raise BundleError("this bundle's files are not those of its manifest")
     _refuse_strangers(graph, weights, procedures)
     if not files.keys() <= {f"{FILES}{name}" for skill in graph.skills for name in skill.files}:
         raise BundleError("this bundle has files that no procedure of it uses")
     return Bundle(Policy(graph, weights), {**procedures, **files}, wiring)
+
+
+def _refuse_missing(packages: object) -> None:
+    """BundleError where a package of which a mind has kinds is not there, or another one is; or cannot be used."""
+    if not isinstance(packages, dict) or not all(isinstance(digest, str) for digest in packages.values()):
+        raise BundleError("this bundle's packages are no packages")
+    for name, digest in packages.items():
+        if lack := missing(name, digest):
+            raise BundleError(lack)
+        if why := refused_packages().get(name):
+            raise BundleError(f"{name} cannot be imported: {why}")
 
 
 def _refuse_strangers(graph: Graph, skills: Iterable[str], modules: Iterable[str]) -> None:

@@ -6,9 +6,26 @@ from dataclasses import MISSING, dataclass, field, fields
 from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
-from typing import Annotated, Any, Literal, TypeVar, dataclass_transform, get_args, get_origin, get_type_hints
+from re import fullmatch
+from threading import RLock
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    Literal,
+    TypeVar,
+    dataclass_transform,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
+from mindrun.errors import text_of
+from mindrun.kinds.packages import entries, package, package_digest
 from mindrun.numbers.quantity import SLOT, Extent, Place, Quantity, Reference, Region, Span
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 T = TypeVar("T")
 
@@ -23,6 +40,9 @@ SHARED_NOUNS = {"scene": "task"}  # a scene is one of those that a task can be i
 _kinds: dict[str, dict[str, type[Any]]] = defaultdict(dict)
 _names: dict[type[Any], str] = {}
 _bases: dict[type[Any], str] = {}
+_brought: dict[type[Any], "EntryPoint"] = {}  # kinds of packages, and by what
+_refused: dict["EntryPoint", str] = {}  # why nothing of a package's module is there; empty where all is
+_IMPORTING = RLock()
 _arguments: dict[Any, tuple["Argument", ...]] = {}  # of each kind that was asked for
 
 Shape = Literal["one", "list", "span", "name", "extent", "place", "places", "alternatives", "region", "lines"]
@@ -60,10 +80,15 @@ class Argument:
 
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))
 def kind(noun: str, name: str) -> Callable[[type[T]], type[T]]:
-    """Make a class a frozen dataclass with slots, if it is none yet, and register it as the kind `name` of `noun`."""
+    """Make a class a frozen dataclass with slots, if it is none yet, and register it as the kind `name` of `noun`.
+
+    ValueError where it is one of a package that cannot be: the name of a function of one's own has a dot.
+    """
 
     def register(cls: type[T]) -> type[T]:
         cls = cls if "__dataclass_fields__" in vars(cls) else dataclass(frozen=True, slots=True)(cls)
+        if _top(cls.__module__) != "mindrun" and (why := _mistake(noun, name, cls)):
+            raise ValueError(why)
         _kinds[noun][name] = cls
         _names[cls] = name
         return cls
@@ -72,9 +97,11 @@ def kind(noun: str, name: str) -> Callable[[type[T]], type[T]]:
 
 
 def kinds(noun: str) -> dict[str, type[Any]]:
-    """Every kind of a noun, by name; all of its modules are imported for it."""
+    """Every kind of a noun, by name; all of its modules are imported for it, and those of packages."""
     if noun in ROOMS:
         _import_all(ROOMS[noun])
+    if noun == "skill":
+        _import_packages()
     found = _kinds[SHARED_NOUNS.get(noun, noun)]
     return {name: found[name] for name in sorted(found)}
 
@@ -96,6 +123,57 @@ def _modules(room: str) -> list[str]:
 def _import_all(room: str) -> None:
     for module in _modules(room):
         import_module(f"{room}.{module}")
+
+
+def _import_packages() -> None:
+    """Import what installed packages bring, each once; one that fails leaves nothing, and the others go on."""
+    with _IMPORTING:
+        for entry in entries():
+            if entry not in _refused:
+                _refused[entry] = ""  # before it runs, and asks for kinds itself
+                _refused[entry] = _import_package(entry)
+
+
+def _import_package(entry: "EntryPoint") -> str:
+    """Why no kind of a package's module can be used; empty where all can."""
+    why = ""
+    try:
+        entry.load()
+    except (Exception, SystemExit) as error:
+        why = f"{type(error).__name__}: {text_of(error)}"
+    for noun, name, cls in [(noun, name, cls) for noun, known in _kinds.items() for name, cls in known.items()]:
+        if cls not in _brought and _top(cls.__module__) == _top(entry.module):
+            if why:
+                del _kinds[noun][name], _names[cls]
+            else:
+                _brought[cls] = entry
+    return why
+
+
+def _mistake(noun: str, name: str, cls: type[Any]) -> str:
+    """Why nobody outside of mindrun can bring this kind; empty where one can."""
+    other = _kinds[noun].get(name)
+    if noun != "skill" or not any(issubclass(cls, each) for each, of in _bases.items() if of == noun):
+        return f"{name} is no function of a skill, and only these can be of one's own"
+    if not fullmatch(r"[a-z]\w*(\.[a-z]\w*)+", name):
+        return f"{name} is no name with a dot, such as lab.{name.lower()}: those without are the language's"
+    arguments(cls)
+    return f"{other.__module__} has a kind {name}, too" if other and other.__module__ != cls.__module__ else ""
+
+
+def _top(module: str) -> str:
+    return module.partition(".")[0]
+
+
+def brought_by(cls: type[Any]) -> tuple[str, str] | None:
+    """The name and version of the package that brings a kind, and the hash of its code; None of those that are here."""
+    return (package(_brought[cls]), package_digest(_brought[cls])) if cls in _brought else None
+
+
+def refused_packages() -> dict[str, str]:
+    """Why the kinds of packages that are installed cannot be used, by their names and versions."""
+    _import_packages()
+    return {package(entry): why for entry, why in _refused.items() if why}
 
 
 def base(noun: str) -> Callable[[type[T]], type[T]]:

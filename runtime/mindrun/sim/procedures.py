@@ -1,6 +1,7 @@
 """Procedures inside the lanes: formulas are compiled, and called through their addresses.
 
-Any other procedure runs in Python, between the two halves of every tick. Where a compiled one fails it says in which
+Any other procedure runs in Python, between the two halves of every tick, and so does a function in numpy, for all runs
+at once. Where a compiled one fails it says in which
 lane, the run stops, and Python is asked for the reason: the same call fails on the robot.
 """
 
@@ -18,6 +19,7 @@ from mindrun.graph.weights import reachable
 from mindrun.kinds import procedure_call
 from mindrun.kinds.procedure_call import load
 from mindrun.kinds.procedure_text import module_of
+from mindrun.kinds.registry import names
 from mindrun.numbers.arrays import Singles
 from mindrun.sim.units import call
 
@@ -44,6 +46,9 @@ class Procedures:
         self._sources = procedure_sources(graph, folder or Path(), master)
         for skill in skills:
             self._prepare(skill)
+        found = {skill.name: skill.function for skill in reachable(graph, master) if skill.function.in_arrays}
+        self.arrays: dict[str, Any] = found  # of skills that are computed in numpy
+        self.slow |= {skill: f"{names()[type(each)]} is computed in numpy" for skill, each in found.items()}
 
     def function(self, skill: str) -> Callable[..., Any]:
         """The function of a skill, in a module of its own that remembers nothing."""
@@ -75,6 +80,21 @@ class Procedures:
             self.addresses[skill.name] = found.address
 
 
+def compute_arrays(function: Any, row: Any, tables: Any, mind: Any, count: int) -> None:
+    """Compute a function in numpy for all lanes at once in which it has influence and its inputs are sound."""
+    inputs, outputs, first = int(row["inputs"]), int(row["outputs"]), int(row["weights"])
+    lanes = mind.active[:count]
+    at = np.flatnonzero((mind.influence[row["index"], lanes] != 0) & (mind.sound[:count] == 0))
+    if not at.size:
+        return
+    lanes, genes = lanes[at], slice(first, first + function.genome_length(inputs, outputs))
+    remembered = slice(row["state"], row["state"] + function.state_length(inputs, outputs))
+    genome = mind.genome[genes, lanes].T if row["own"] else tables.weights[genes]
+    state = mind.recurrent[remembered, lanes].T
+    sent, after = function.computed(mind.gathered[:inputs, at].T, genome, state, outputs)
+    mind.hidden[:outputs, at], mind.recurrent[remembered, lanes] = sent.T, after.T
+
+
 @dataclass(frozen=True, slots=True)
 class Memories:
     """The procedures of every run that goes on: each has modules of its own, as on a robot that has just started."""
@@ -82,9 +102,12 @@ class Memories:
     procedures: Procedures
     functions: dict[tuple[str, int], Callable[..., Any]] = field(default_factory=dict)
 
-    def run(self, skill: str, row: Any, state: Any, count: int) -> None:
+    def run(self, skill: str, row: Any, tables: Any, state: Any, count: int) -> None:
         """Call a skill's function for what `count` lanes have gathered; its outputs are the first rows of `hidden`."""
         mind, outputs = state.mind, int(row["outputs"])
+        if skill in self.procedures.arrays:
+            compute_arrays(self.procedures.arrays[skill], row, tables, mind, count)
+            return
         for k in range(count):
             inputs = mind.gathered[: row["inputs"], k]
             if np.isfinite(inputs).all():

@@ -205,7 +205,7 @@ class Rollout:
                 think(tables, state, lanes, row, row + 1)
                 self._explain(tile)
             elif count := wake(tables, state, lanes, row):
-                tile.memories.run(name, tables.skills[row], state, count)
+                tile.memories.run(name, tables.skills[row], tables, state, count)
                 send(tables, state, row, 0, count, lanes)
 
     def _explain(self, tile: Tile) -> None:

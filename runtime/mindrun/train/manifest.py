@@ -23,6 +23,7 @@ from mindrun.graph.validate import lesson_flaws
 from mindrun.graph.weights import Weights, reachable
 from mindrun.kinds.environment import module_beside
 from mindrun.kinds.functions.procedure import module_source
+from mindrun.kinds.registry import brought_by
 from mindrun.numbers.short_repr import full_repr
 from mindrun.train import RunError
 
@@ -84,6 +85,7 @@ def fingerprint(graph: Graph, lesson: Lesson, procedures: Path | None) -> str:
         for skill in skills
         if skill.function.calls is not None and procedures is not None
     ]
+    code += [" ".join(package) for skill in skills if (package := brought_by(type(skill.function)))]
     beside = (module_beside(task.scene.environment, procedures) for task in tasks)
     code += [path.read_text(encoding="utf-8", errors="replace") for path in beside if path is not None]
     return _sha256(f"({full_repr(scope)}, {code!r})".encode())

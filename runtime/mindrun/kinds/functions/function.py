@@ -47,6 +47,7 @@ class Function:
     bias = 0  # 1 if each of its matrices has a first column that reads 1
     opaque = ""  # why nothing can be proved of its outputs, even with its weights
     calls: str | None = None  # the Python function whose text belongs to the mind, `module.function`, if it calls one
+    in_arrays = False  # whether numpy computes it in the lanes, too, for all runs at once (`ArrayFunction.computed`)
     derived: tuple[str, ...] = ()  # arguments that nobody said and that follow from what its skill reads and sends
 
     def explicit(self, inputs: int, outputs: int) -> Self:

@@ -6,18 +6,16 @@ where a device is opened, and where a bundle is built.
 
 import json
 import sys
-from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from importlib.metadata import Distribution, EntryPoint, PackageNotFoundError, distribution
-from importlib.util import find_spec
-from pathlib import Path
 from threading import Lock
 from types import ModuleType
 from typing import Annotated, Any
 
 from mindrun.driver import ActuatorDevice, DeviceError, SensorDevice
+from mindrun.kinds.packages import REBUILD, package_digest
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import NUMBER, Quantity
 from mindrun.robot.driver_support import SWITCH, TEXT, share
@@ -25,7 +23,6 @@ from mindrun.robot.driver_support import SWITCH, TEXT, share
 READINGS = Quantity("a number of readings", {"": 1.0}, low=1, high=1000, whole=True)
 KIND = "of one's own"  # no word of robot.yaml: there stands the name of the class
 ENTRY_POINTS = "mindrun.drivers"  # the group under which a package says its drivers
-REBUILD = "build the bundle again where that package is, or install that version here"
 
 _loading = Lock()  # sensors are opened in threads of their own
 
@@ -68,7 +65,7 @@ def of_package(name: str) -> DriverCode | None:
     if found is None:
         return None
     package, entry = found
-    return DriverCode(name, _package_digest(entry), (), f"{package.name} {package.version}")
+    return DriverCode(name, package_digest(entry), (), f"{package.name} {package.version}")
 
 
 def load_class(code: DriverCode) -> Any:
@@ -83,7 +80,7 @@ def load_class(code: DriverCode) -> Any:
         install = f"pip install '{code.package.replace(' ', '==')}'"
         raise DeviceError(f"{code.package} is not installed, or has no driver {code.name}", install)
     package, entry = found
-    if _package_digest(entry) != code.digest:
+    if package_digest(entry) != code.digest:
         here = f"{package.name} {package.version}"
         raise DeviceError(f"{here} is installed, and its code is not that of {code.package} in the bundle", REBUILD)
     with _loading:
@@ -114,26 +111,6 @@ def _offered(name: str) -> tuple[Distribution, EntryPoint] | None:
         return None
     entries = found.entry_points.select(group=ENTRY_POINTS, name=driver)
     return next(((found, entry) for entry in entries), None)
-
-
-def _package_digest(entry: EntryPoint) -> str:
-    """The SHA-256 of the names and contents of all modules beside the one of an entry point."""
-    digest = sha256()
-    for name, content in _modules(entry.module.split(".")[0]):
-        digest.update(f"{name} {sha256(content).hexdigest()}\n".encode())
-    return digest.hexdigest()
-
-
-def _modules(name: str) -> Iterator[tuple[str, bytes]]:
-    """The files of a package, or of a module alone, by their names in it; found without running any."""
-    spec = find_spec(name)
-    if spec is None:
-        return
-    for folder in spec.submodule_search_locations or ():
-        for path in sorted(Path(folder).rglob("*.py")):
-            yield path.relative_to(folder).as_posix(), path.read_bytes()
-    if not spec.submodule_search_locations and spec.origin:
-        yield Path(spec.origin).name, Path(spec.origin).read_bytes()
 
 
 def encoded(options: dict[str, Any]) -> str:
