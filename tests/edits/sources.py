@@ -28,6 +28,8 @@ FUNCTIONS = (
     "elman width 3 bias 1",
     "gru",
     "gru width 3 bias 1",
+    "ctrnn",
+    "ctrnn width 3",
     "neat",
     "neat most 2 links any bias 0",
     "procedure from own.by",
@@ -244,7 +246,7 @@ def _declarations(rng: Random) -> list[list[str]]:
     if rng.random() < 0.4 and not any(block[0].startswith("scene ") for block in blocks):  # which would part them
         alone = r"( (?:eye|inside|distance|light) of )(?:nest|dock)\b"
         blocks = [[re.sub(alone, r"\1nest or dock", block[0]), *block[1:]] for block in blocks]
-    learners = [skill for skill in skills if functions[skill].startswith(("mlp", "elman", "gru", "neat"))]
+    learners = [skill for skill in skills if functions[skill].startswith(("mlp", "elman", "gru", "ctrnn", "neat"))]
     if learners and rng.random() < 0.4:
         blocks.append(_like(rng, next(block for block in blocks if block[0].startswith(f"skill {learners[0]} "))))
     if is_family := rng.random() < 0.3:

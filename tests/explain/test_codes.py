@@ -35,7 +35,7 @@ EMITTERS = {
 # Codes that are made of words as they are emitted: how, and which these are.
 MADE = {
     "f'unknown-{nouns[0]}'": {f"unknown-{noun}" for noun in ("sensor", "actuator", "skill", "task", "scene", "number")},
-    "f'unknown-{noun_}'": {"unknown-axis", "unknown-side", "unknown-outcome"},
+    "f'unknown-{noun_}'": {"unknown-axis", "unknown-direction", "unknown-side", "unknown-outcome"},
     "f'{word}-differs'": {"tick-differs", "unit-differs"},
     "said.replace(' ', '-')": {f"{key}-{word}" for key, (word, _) in SWITCHES.items()},
 }

@@ -10,10 +10,12 @@ from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
+from mindrun.kinds.functions.ctrnn import Ctrnn
 from mindrun.kinds.functions.elman import Elman
 from mindrun.kinds.functions.function import NetworkFunction
 from mindrun.kinds.functions.gru import Gru
 from mindrun.kinds.functions.mlp import Mlp
+from mindrun.numbers.arithmetic import sigmoid
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
@@ -59,6 +61,7 @@ def mind(text: str = MIND) -> Graph:
 RECURRENT = {
     "elman": MIND,
     "gru": MIND.replace("is elman", "is gru"),
+    "ctrnn": MIND.replace("is elman", "is ctrnn"),
     "elman bias 1": MIND.replace("width 5", "width 5 bias 1"),
     "gru bias 1": MIND.replace("is elman width 5", "is gru width 5 bias 1"),
     "neat links any": MIND.replace("is elman width 5", "is neat most 5 links any"),
@@ -75,6 +78,13 @@ def test_outputs_begin_about_a_half(function: NetworkFunction, bias: int) -> Non
     halves = last[..., bias:].sum(axis=2) / 2 + last[..., :bias].sum(axis=2)
     np.testing.assert_allclose(halves, 1 / 2, atol=1e-4)  # where all neurons say 1/2
     assert last.std() > 1
+
+
+def test_neurons_with_time_constants_begin_about_a_half() -> None:
+    genomes = Ctrnn(5).draw(7, 3, 400, np.random.default_rng(1))
+    drive, own = genomes[:, :60].reshape(400, 5, 12), genomes[:, 60:70].reshape(400, 5, 2)
+    np.testing.assert_allclose(drive.sum(axis=2) / 2 + own[..., 0], 0, atol=1e-4)  # where all that it reads is 1/2
+    assert np.histogram(own[..., 1], 4, (0, 8))[0] == pytest.approx([500] * 4, rel=0.2)
 
 
 def drawn(graph: Graph, seed: int, count: int = 1) -> np.ndarray:
@@ -102,6 +112,13 @@ def test_the_lanes_remember_as_the_engine_does(text: str, seed: int) -> None:
     assert follow(Rollout(Policy(graph, weights), "World", "Top"), Engine(Policy(graph, weights)), seed) > 20
     learning = Rollout(Policy(graph, {}), "World", "Top", ["Roam"])
     assert follow(learning, Engine(Policy(graph, weights)), seed, weights["Roam"]) > 20
+
+
+def test_for_ten_thousand_ticks_a_ctrnn_in_the_lanes_is_that_of_the_engine() -> None:
+    graph = mind(RECURRENT["ctrnn"].replace("300 ticks", "10000 ticks").replace("  ends on collision\n", ""))
+    genome = drawn(graph, 1)[0]
+    rollout = Rollout(Policy(graph, {}), "World", "Top", ["Roam"])
+    assert follow(rollout, Engine(Policy(graph, {"Roam": genome})), 1, genome) == 10_000
 
 
 @pytest.mark.parametrize("bias", [0, 1])
@@ -154,6 +171,36 @@ def test_gates_are_what_plain_python_says() -> None:
         assert commands == pytest.approx(values, abs=1e-4), tick
 
 
+def test_time_constants_are_what_plain_python_says() -> None:
+    """The sum of straight lines between powers of two is 2^⌊g⌋·(1 + (g − ⌊g⌋)) to the last bit."""
+    for gene in np.float32([-3e38, -0.1, 0, 1e-9, 0.3, 0.99999994, 1, 2.7, 3, 5.123, 7.9999995, 8, 8.1, 3e38]):
+        g = min(max(gene, np.float32(0)), np.float32(8))
+        ticks = np.float32(2) ** int(g) * (1 + (g - np.float32(int(g))))
+        rest = np.float32([1.7, 0.4, gene, 1])  # one neuron that is driven by 1.7 of an input, and said to an output
+        ready = Ctrnn(1).ready(1, 1, np.insert(rest, 1, 0), {})
+        state = np.float32(0)
+        for _ in range(300):
+            found = ready(np.float32([1]))
+            state = state + (np.float32(1.7) - state) / ticks
+            assert found == sigmoid(state + rest[1:2]), gene
+
+
+def test_neurons_with_time_constants_are_what_plain_python_says() -> None:
+    graph, rng = mind(RECURRENT["ctrnn"]), np.random.default_rng(1)
+    genome = drawn(graph, 1)[0]
+    engine = Engine(Policy(replace(graph, master="Roam"), {"Roam": genome}))
+    drive, own, out = (genome[:45].reshape(5, 9), genome[45:55].reshape(5, 2), genome[55:].reshape(2, 5).tolist())
+    state, said = np.zeros(5), [1 / (1 + exp(-bias)) for bias in own[:, 0]]
+    for tick in range(50):
+        commands = engine.tick(np.append(rng.random(3), 0).astype(np.float32))
+        state += (drive @ [*map(float, engine.readings), *said] - state) / np.interp(
+            own[:, 1], range(9), 2.0 ** np.arange(9)
+        )
+        said = [1 / (1 + exp(-value)) for value in state + own[:, 0]]
+        values = [min(1.0, max(0.0, sum(w * x for w, x in zip(row, said, strict=True)))) for row in out]
+        assert commands == pytest.approx(values, abs=1e-4), tick
+
+
 def sigmoids(matrix: list[list[float]], values: list[float]) -> list[float]:
     return [1 / (1 + exp(-sum(w * x for w, x in zip(row, values, strict=True)))) for row in matrix]
 
@@ -190,6 +237,7 @@ def test_its_width_and_its_weights() -> None:
     assert (Elman().derived, Elman(5).derived) == (("width",), ())
     assert Gru(5).genome_length(4, 2) == 3 * (4 + 5) * 5 + 5 * 2
     assert Gru().explicit(4, 2) == Gru(6)
+    assert Ctrnn(5).genome_length(4, 2) == (4 + 5) * 5 + 2 * 5 + 5 * 2
     assert Elman(5, bias=1).genome_length(4, 2) == (1 + 4 + 5) * 5 + (1 + 5) * 2
 
 

@@ -105,6 +105,8 @@ def test_weights_are_copied_into_the_order_of_the_learner(tmp_path: Path) -> Non
             "gru width 5",
             "mlp hidden 2 bias 1",
             "gru bias 1",
+            "ctrnn",
+            "ctrnn width 5",
         ]
     ),
     st.permutations(["near", "eyes", "ears", "charge"]),

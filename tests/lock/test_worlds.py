@@ -133,6 +133,10 @@ skill Grow is neat
   reads north
   drives left_wheel
 
+skill Lag is ctrnn
+  reads north
+  drives left_wheel
+
 skill Top is mlp
   reads ball_bearing
   reads mood
@@ -140,6 +144,7 @@ skill Top is mlp
   influences Search when mood < 0.9
   influences Sway
   influences Grow
+  influences Lag
   influences Turn when mood > 0.1 otherwise 0.2
   influences Watch cuts below 5%
   influences Grab at 1
@@ -187,6 +192,7 @@ curriculum School is genetic population 8
   teaches Search on Fetch for 3 generations
   teaches Sway on Fetch for 3 generations
   teaches Grow on Fetch for 3 generations
+  teaches Lag on Fetch for 3 generations
   teaches Top on Fetch for 3 generations
 
 curriculum Other is restarting population 8
@@ -544,7 +550,7 @@ def test_an_earlier_lesson_is_known_too(tmp_path: Path) -> None:
     first, second = (lesson for lesson in graph.lessons if lesson.skill == "Top")
     weights = {skill.name: np.zeros(genes(skill), np.float32) for skill in graph.skills if genes(skill)}
     path, worlds = tmp_path / "a.lock", Worlds(graph, None)
-    below = {name: weights[name] for name in ("Go", "Search", "Sway", "Grow")}
+    below = {name: weights[name] for name in ("Go", "Search", "Sway", "Grow", "Lag")}
     record(path, graph, below, Taught("Fetch", "Go", False, 3, 8, 1, 1.0), {}, worlds.of(first))
     for lesson in (first, second, first, second):
         made = Taught(lesson.task, lesson.master, False, 3, 8, 1, 1.0)

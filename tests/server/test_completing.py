@@ -25,7 +25,7 @@ CASES = [  # where the line is put, the line with | for the cursor, what must be
     (BELOW_AVOID, "  stays |", "frozen", "moving"),
     (BELOW_AVOID, "skill X |", "is", "in"),
     (BELOW_AVOID, "task X |", "in is", "at"),
-    (BELOW_AVOID, "skill X is |", "mlp elman gru neat rule procedure", "wheel"),
+    (BELOW_AVOID, "skill X is |", "mlp ctrnn elman gru neat rule procedure", "wheel"),
     (BELOW_AVOID, "skill X is |", "like", "wheel"),
     (BELOW_AVOID, "skill X is like |", "Avoid Fetch", "X eyes"),
     (BELOW_AVOID, "  reads parcel_bearing |", "", "for"),

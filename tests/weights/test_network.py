@@ -17,7 +17,7 @@ from tests.edits.taught import MIND, write_mind
 
 KINDS = {
     kind: MIND.replace("skill Avoid is mlp hidden 2", f"skill Avoid is {kind}")
-    for kind in ("mlp", "elman", "gru", "elman bias 1")
+    for kind in ("mlp", "elman", "gru", "ctrnn", "elman bias 1")
 }
 
 
@@ -63,7 +63,7 @@ def test_the_engine_computes_what_stands_in_a_book(tmp_path: Path, text: str, mo
     own = network(tmp_path, text)
     rows = np.random.default_rng(2).random((50, own.inputs)).astype(np.float32)
     rows[7, 0] = np.nan
-    found = engine_deviation(own, genome_of(own), rows)
+    found = engine_deviation(own, genome_of(own, 4), rows)
     assert (found.reference, found.ticks, found.faults) == ("float64", 49, 0)
     assert 0 < found.difference < 1e-4
 

@@ -37,6 +37,7 @@ SHAPES = (
     "elman width 3",
     "gru",
     "gru bias 1",
+    "ctrnn",
 )
 
 
@@ -107,7 +108,7 @@ def test_what_leads_back_comes_through_the_clamp(value: float, leads_up: bool, c
     assert bool(x.grad) == comes_through
 
 
-@pytest.mark.parametrize("function", ["mlp hidden 1", "elman", "gru"])
+@pytest.mark.parametrize("function", ["mlp hidden 1", "elman", "gru", "ctrnn"])
 def test_it_learns_what_it_is_shown(tmp_path: Path, function: str) -> None:
     torch.manual_seed(2)
     own = network(tmp_path, function)

@@ -36,7 +36,7 @@ class Neat(NetworkFunction):
     """
 
     most: Most = 8
-    links: Annotated[Reach, Reference("links", ("any", "forward"))] = "forward"
+    links: Annotated[Reach, Reference("direction", ("any", "forward"))] = "forward"
     bias: Bias = 1
 
     derived = ()
