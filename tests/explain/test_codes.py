@@ -56,9 +56,7 @@ def emitted() -> set[str]:
     found: set[str] = set()
     for node in (
         node
-        for path in modules(
-            COMPILER, RUNTIME / "kinds" / "things", RUNTIME / "kinds" / "sensors", RUNTIME / "sim" / "outside"
-        )
+        for path in modules(COMPILER, RUNTIME / "kinds", RUNTIME / "sim" / "outside")
         if path.parent != COMPILER / "robot"
         for node in nodes(path)
     ):

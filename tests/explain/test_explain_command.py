@@ -117,7 +117,9 @@ def test_kinds_are_listed_by_noun(mindc: Call) -> None:
     assert "Actuators" not in sensors
     assert mindc("kinds", "task").out == mindc("kinds", "scene").out
     said = json.loads(mindc("kinds", "memory", "--json").out)["kinds"]
-    assert [(each["noun"], each["name"]) for each in said] == [("memory", "cell")]
+    assert [(each["noun"], each["name"]) for each in said] == [
+        ("memory", each) for each in ("cell", "counter", "place", "register")
+    ]
 
 
 def test_a_noun_without_kinds_is_refused_with_those_that_have_some(mindc: Call) -> None:
