@@ -32,6 +32,7 @@ COMMANDS = {  # of the runtime, and why each may speak
     "cli/order.py": "mindrun order",
     "cli/replay.py": "mindrun replay",
     "cli/report.py": "mindrun report",
+    "kinds/registry.py": "catches the end that a package of somebody else's asks for",
 }
 PROGRAMS = {
     "executors/processes.py": "a process of a pool ends with the one that began it",
