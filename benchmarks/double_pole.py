@@ -47,7 +47,7 @@ from mindlang.compiler.source import Source
 C = TypeVar("C", bound=Callable[..., Any])
 Doubles = NDArray[np.float64]
 
-GRAVITY = 9.8  # m/s²
+GRAVITY_MS2 = 9.8
 CART_KG, LONG_KG, SHORT_KG = 1.0, 0.1, 0.01
 LONG_HALF_M, SHORT_HALF_M = 0.5, 0.05  # half the length of a pole
 CART_FRICTION, HINGE_FRICTION = 0.0005, 0.000002
@@ -99,7 +99,7 @@ sine_cosine = compiled(arithmetic.sine_cosine)  # the same bits on every process
 def pole(angle: float, spin: float, kg: float, half: float, friction: float) -> tuple[float, float, float, float]:
     """A pole's push on the cart, its mass there (Wieland, 1991), the cosine of its angle, and what makes it fall."""
     sine, cosine = sine_cosine(angle)
-    falls = friction * spin / (kg * half) - GRAVITY * sine
+    falls = friction * spin / (kg * half) - GRAVITY_MS2 * sine
     return kg * half * spin * spin * sine + 0.75 * kg * cosine * falls, kg * (1 - 0.75 * cosine * cosine), cosine, falls
 
 
@@ -182,10 +182,12 @@ def contest(says: str, learner: str) -> Contest:
     return Contest(done.graph.skills[0], done.graph.lessons[0].learner)
 
 
-def balance(of: Contest, genomes: Genomes, starts: Doubles, ticks: int) -> tuple[NDArray[np.int64], Doubles]:
+def balance(
+    of: Contest, genomes: Genomes, starts: Doubles, ticks: int, least: int = 1
+) -> tuple[NDArray[np.int64], Doubles]:
     """How many ticks [runs] of at most so many both poles are up, and how restless [runs] the last hundred were.
 
-    A run is a genome of [runs, weights] that begins at a start of [runs, 6].
+    A run is a genome of [runs, weights] that begins at a start of [runs, 6]. All end where fewer than `least` are left.
     """
     held, restless = np.full(len(genomes), ticks), np.zeros((LAST_TICKS, len(genomes)))
     runs, states, matrices = np.arange(len(genomes)), starts.copy(), [*of.matrices(genomes)]
@@ -200,10 +202,11 @@ def balance(of: Contest, genomes: Genomes, starts: Doubles, ticks: int) -> tuple
             held[runs[~up]] = number
             runs, states, memory = runs[up], states[up], memory[up]
             matrices = [each[..., up] for each in matrices]
-            if not len(runs):
+            if len(runs) < least:
+                held[runs] = number
                 break
         restless[number % LAST_TICKS, runs] = np.abs(states[:, :4]).sum(axis=1)
-    return held, restless.sum(axis=0)
+    return held, sum(restless, np.zeros(len(genomes)))  # in this order, however many there are
 
 
 def scored(of: Contest, genomes: Genomes) -> tuple[Doubles, NDArray[np.int64]]:
@@ -226,7 +229,7 @@ def starts_held(of: Contest, genome: Genomes) -> int:
     0 if it does not; -1 where that was not tried, since there are too few of them.
     """
     starts = other_starts()
-    held, _ = balance(of, genome.repeat(len(starts), axis=0), starts, SCORED_TICKS)
+    held, _ = balance(of, genome.repeat(len(starts), axis=0), starts, SCORED_TICKS, ENOUGH_STARTS)
     count = int((held == SCORED_TICKS).sum())
     if count < ENOUGH_STARTS:
         return -1
