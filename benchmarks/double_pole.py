@@ -3,6 +3,7 @@
     --function elman                 `elman width 3` by `evolution_strategy`; or neat, `most 4 links any` by `genetic`
     --says "elman width 4"           another function; what a skill of a mind may say
     --learner "genetic population 100 octaves 2"     another learner; its `patience` begins anew where it is stuck
+    --centred                        no genome but those of whose neurons each says 1/2 where all that it reads is 1/2
 
 The task is that of Gruau, Whitley and Pyeatt (1996) as Igel (2003) and Gomez, Schmidhuber and Miikkulainen (2008) have
 it: the poles (1 m, 0.1 m) begin with the long one at 4.5 degrees, the cart is pushed with up to 10 N every 0.02 s,
@@ -237,12 +238,33 @@ def starts_held(of: Contest, genome: Genomes) -> int:
     return count if long == LONG_TICKS else 0
 
 
+def centred(of: Contest, genomes: Genomes) -> Genomes:
+    """The nearest genomes of whose neurons and outputs each says 1/2 where all that it reads is 1/2.
+
+    That is what a network without biases does whose readings are around 0. Where there is a bias, it alone is moved.
+    """
+    function: Any = of.skill.function
+    shapes, bias, place = function.matrix_shapes(*of.size), getattr(function, "bias", 0), 0
+    found = genomes.copy()
+    for number, (before, to) in enumerate(shapes, 1):
+        cells = found[:, place : place + before * to].reshape(len(genomes), to, before)
+        sums = np.zeros(to, np.float32)
+        sums[to - of.size[1] if number == len(shapes) else to :] = 1
+        if bias:
+            cells[..., 0] = np.where(cells[..., 1:].any(axis=2), (sums - cells[..., 1:].sum(axis=2)) / 2, 0)
+        else:
+            cells += ((sums - cells.sum(axis=2)) / before)[..., None]
+        found[:, place : (place := place + before * to)] = cells.reshape(len(genomes), -1)
+    return found
+
+
 @dataclass(frozen=True, slots=True)
 class Trial:
     """One seed of a contest."""
 
     says: str
     learner: str
+    centred: bool
     limit: int
     seed: int
 
@@ -274,6 +296,7 @@ def tried(trial: Trial) -> Outcome:
         if 0 < of.learner.patience <= stale:
             population, best, stale, begun = empty_population(nothing.shape[1]), -np.inf, 0, begun + 1
         genomes = ask(population, of.learner, nothing.astype(np.float32), of.draw, rng, *heredity(of))
+        genomes = centred(of, genomes) if trial.centred else genomes
         scores, held = scored(of, genomes)
         evaluations += len(genomes)
         population = tell(population, of.learner, nothing.astype(np.float32), genomes, scores)
@@ -354,6 +377,7 @@ def parsed() -> argparse.Namespace:
     parser.add_argument("--function", default="elman", choices=SAYS)
     parser.add_argument("--says", default="", metavar="WORDS", help="the function in full")
     parser.add_argument("--learner", default="", metavar="WORDS", help="the learner in full")
+    parser.add_argument("--centred", action="store_true", help="keep neurons at 1/2 where all they read is 1/2")
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--first", type=int, default=1, metavar="SEED", help="the first seed, others follow")
     parser.add_argument("--limit", type=int, default=400_000, metavar="EVALUATIONS", help="of a seed")
@@ -369,7 +393,7 @@ def main() -> None:
     says, learner = options.says or SAYS[options.function], options.learner or LEARNERS[options.function]
     tick(START.copy(), np.zeros((1, 1), np.float32))  # compiled once
     contest(says, learner)
-    trials = [Trial(says, learner, options.limit, options.first + i) for i in range(options.seeds)]
+    trials = [Trial(says, learner, options.centred, options.limit, options.first + i) for i in range(options.seeds)]
     options.log.parent.mkdir(parents=True, exist_ok=True)
     known = read(options.log)
     with ProcessPoolExecutor(options.workers, get_context("spawn")) as pool:
@@ -385,7 +409,7 @@ def main() -> None:
     if options.json:
         print(json.dumps([asdict(each) for each in outcomes]))
     else:
-        print(f"{says} by {learner}\n{summary(outcomes, PUBLISHED[options.function])}")
+        print(f"{says} by {learner}{', centred' * options.centred}\n{summary(outcomes, PUBLISHED[options.function])}")
 
 
 if __name__ == "__main__":
