@@ -61,7 +61,7 @@ SCORED_TICKS, LAST_TICKS, LONG_TICKS, ENOUGH_STARTS = 1000, 100, 100_000, 200
 
 SAYS = {"elman": "elman width 3", "neat": "neat most 4 links any"}
 LEARNERS = {
-    "elman": "evolution_strategy population 16 mutation 0.6 founders 200 patience 100 generations",
+    "elman": "evolution_strategy population 16 mutation 0.6 founders 50",
     "neat": "genetic population 1000 species 8 octaves 2 mutated 100% grow 3% link 10%",
 }
 PUBLISHED = {
