@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from benchmarks.cart_and_poles import after
 from benchmarks.double_pole import (
     LEARNERS,
     SAYS,
@@ -15,7 +16,6 @@ from benchmarks.double_pole import (
     TERMS,
     Outcome,
     Trial,
-    after,
     balance,
     centred,
     contest,
