@@ -111,25 +111,27 @@ def _residuals(function: Function, examples: Examples, genomes: Doubles) -> Doub
     inputs, wanted = examples.inputs, examples.wanted
     shapes = function.matrix_shapes(inputs.shape[2], wanted.shape[2])
     ends = np.cumsum([into * out for into, out in shapes])[:-1]
-    found = [part.reshape(-1, out, into) for part, (into, out) in zip(np.split(genomes, ends, 1), shapes, strict=True)]
+    parts = zip(np.split(genomes.T, ends), shapes, strict=True)
+    matrices = [part.reshape(out, into, len(genomes)) for part, (into, out) in parts]
     length = function.state_length(inputs.shape[2], wanted.shape[2])
-    if length:
-        state, outputs = np.zeros((len(genomes), inputs.shape[1], length)), []
-        for values in inputs:
-            sent, state = function.forward(
-                BATCHED, found, np.broadcast_to(values, (len(genomes), *values.shape)), state
-            )
-            outputs.append(sent)
-        computed = np.stack(outputs, axis=1)
-    else:
-        flat = inputs.reshape(1, -1, inputs.shape[2])
-        computed = function.forward(BATCHED, found, flat, None)[0].reshape(len(genomes), *wanted.shape)
+    rows = inputs if length else inputs.reshape(1, -1, inputs.shape[2])
+    state, outputs = np.zeros((rows.shape[1], len(genomes), length)), []
+    for values in rows:
+        alike = np.broadcast_to(values[:, None], (len(values), len(genomes), values.shape[1]))
+        sent, state = function.forward(SIDE_BY_SIDE, matrices, alike, state)
+        outputs.append(sent)
+    computed = np.moveaxis(np.stack(outputs), 2, 0).reshape(len(genomes), *wanted.shape)
     is_beyond = ((wanted <= 0) & (computed < 0)) | ((wanted >= 1) & (computed > 1)) | np.isnan(wanted)
     return np.where(is_beyond, 0.0, computed - wanted).reshape(len(genomes), -1)
 
 
-BATCHED = Terms(  # of numbers [genomes, rows, values]
-    product=lambda values, matrix: values @ matrix.swapaxes(-1, -2),
+def _product(values: Doubles, matrix: Doubles) -> Doubles:
+    """The sums [rows, genomes, out] of values [rows, genomes, in], of each genome its matrix [out, in, genomes]."""
+    return (values.transpose(1, 0, 2) @ matrix.transpose(2, 1, 0)).transpose(1, 0, 2)
+
+
+SIDE_BY_SIDE = Terms(  # of numbers [rows, genomes, values]
+    product=_product,
     sigmoid=lambda values: 0.5 * np.tanh(0.5 * values) + 0.5,
     joined=lambda one, other: np.concatenate([one, other], axis=-1),
     biased=lambda values: np.concatenate([np.ones_like(values[..., :1]), values], axis=-1),

@@ -6,13 +6,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mindrun.kinds.functions.ctrnn import Ctrnn
+from mindrun.kinds.functions.elman import Elman
+from mindrun.kinds.functions.function import NetworkFunction
 from mindrun.kinds.functions.gru import Gru
+from mindrun.kinds.functions.mlp import Mlp
+from mindrun.kinds.functions.neat import Neat
 from mindrun.train.manifest import hashes
 
 from mindlang.compiler.compile import load
 from mindlang.lock import lock_path, read_lock
 from mindlang.run.drives import read_drives
 from mindlang.training.subject import open_subject
+from mindlang.weights import least_squares
 from mindlang.weights.least_squares import Examples, fitted
 from tests.calling import Call
 
@@ -92,6 +98,22 @@ def test_what_remembers_is_fitted_tick_by_tick() -> None:
     found = teacher.ready(1, 1, fitted(Gru(2), Examples(inputs, wanted), 1, lambda steps: None), {})
     sent = np.array([np.clip(found(row.astype(np.float32)), 0, 1) for row in inputs[:, 0]])
     assert np.abs(sent - wanted[:, 0]).mean() < 0.1 * np.abs(wanted[:, 0] - wanted.mean()).mean()
+
+
+@pytest.mark.parametrize(
+    "function",
+    [Mlp(hidden=2, bias=1), Neat(most=2), Neat(most=2, links="any"), Elman(2), Gru(2, bias=1), Ctrnn(2)],
+    ids=repr,
+)
+def test_a_fit_computes_what_the_skill_does(function: NetworkFunction) -> None:
+    rng = np.random.default_rng(5)
+    inputs, genomes = rng.random((9, 2, 3)), rng.standard_normal((4, function.genome_length(3, 2)))
+    found = least_squares._residuals(function, Examples(inputs, np.full((9, 2, 2), 0.5)), genomes)
+    for genome, residuals in zip(genomes, found.reshape(4, 9, 2, 2), strict=True):
+        for place in range(2):
+            compute = function.ready(3, 2, genome.astype(np.float32), {})
+            sent = np.array([compute(row.astype(np.float32)) for row in inputs[:, place]])
+            assert np.abs(sent - 0.5 - residuals[:, place]).max() < 1e-4
 
 
 @pytest.mark.parametrize(

@@ -48,7 +48,7 @@ class Ctrnn(NetworkFunction):
         τ = 2^⌊g⌋·(1 + (g − ⌊g⌋)) ticks for the gene g, clamped to 1..256: straight lines between the powers of two.
         """
         drive, own, last = matrices
-        bias, gene = own[:, 0], own[:, 1]
+        bias, gene = own.T[..., 0, :], own.T[..., 1, :]
         ticks = sum((2**i * (gene - i).clip(0, 1) for i in range(TICK_DOUBLINGS)), 1.0)
         driven = of.product(of.joined(inputs, of.sigmoid(state + bias)), drive)
         after = state + (driven - state) / ticks

@@ -66,6 +66,7 @@ class Function:
         """The outputs for inputs [..., inputs] in a state [..., state], before the clamp, and the state after that.
 
         In the terms of numpy, of PyTorch, or of whoever else computes what these matrices do; not of what has none.
+        Many genomes side by side are inputs and states [..., genomes, values] and matrices [out, in, genomes].
         """
         raise NotImplementedError
 
