@@ -202,7 +202,7 @@ def test_a_package_that_cannot_be_is_left_out(
     mindc: Call, lab: Install, roam: Path, before: str, after: str, why: str
 ) -> None:
     lab("lab-kinds", "0.1", "lab_kinds", FILES["lab_kinds.py"].replace(before, after))
-    assert {*kinds("skill")} == {"elman", "fast.rectified", "gru", "mlp", "procedure", "rule"}
+    assert [name for name in kinds("skill") if "." in name or not name.islower()] == ["fast.rectified"]
     assert [*refused_packages()] == ["lab-kinds 0.1"]
     assert refused_packages()["lab-kinds 0.1"].startswith(why)
     assert f"lab-kinds 0.1 has kinds that cannot be used: {why}" in " ".join(mindc("check", roam).err.split())

@@ -87,7 +87,7 @@ def kind(noun: str, name: str) -> Callable[[type[T]], type[T]]:
 
     def register(cls: type[T]) -> type[T]:
         cls = cls if "__dataclass_fields__" in vars(cls) else dataclass(frozen=True, slots=True)(cls)
-        if _top(cls.__module__) != "mindrun" and (why := _mistake(noun, name, cls)):
+        if _is_brought(cls) and (why := _mistake(noun, name, cls)):
             raise ValueError(why)
         _kinds[noun][name] = cls
         _names[cls] = name
@@ -148,6 +148,12 @@ def _import_package(entry: "EntryPoint") -> str:
             else:
                 _brought[cls] = entry
     return why
+
+
+def _is_brought(cls: type[Any]) -> bool:
+    """True if the class is of a package that says that it has kinds."""
+    top = _top(cls.__module__)
+    return top != "mindrun" and any(_top(entry.module) == top for entry in entries())
 
 
 def _mistake(noun: str, name: str, cls: type[Any]) -> str:
