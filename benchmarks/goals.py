@@ -33,7 +33,7 @@ from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source
 
 SHARE_OF_COUNT, SHARE_OF_TICKS = 0.9, 1.25
-CURVE = 1  # the number of an attempt that no lesson makes: its layouts are the curve's
+CURVE_ATTEMPT = 1  # the number of an attempt that no lesson makes: its layouts are the curve's
 UNSEEN_SEED, UNSEEN_LAYOUTS = 99, 100
 LESSONS = """
 curriculum Goals is genetic octaves 2
@@ -117,7 +117,7 @@ class Teaching:
             taken, number = taken + record.ticks, state.population.generation
             whole = whole or (taken if number == lesson.generations else 0)
             if number == 1 or number % self.options.every == 0 or number >= lesson.generations:
-                fresh = layouts(seed, CURVE, number, REEVALUATION_LAYOUTS, Purpose.REEVALUATION)
+                fresh = layouts(seed, CURVE_ATTEMPT, number, REEVALUATION_LAYOUTS, Purpose.REEVALUATION)
                 looked, *_ = reevaluate(replace(state, champion=champion), rollout, fresh)
                 is_same = looks and np.array_equal(looked.champion, champion)
                 looks.append((taken, looks[-1][1] if is_same else self.counts(looked.champion)))

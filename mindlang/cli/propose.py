@@ -104,7 +104,7 @@ def _stage(file: str, task: str, skill: str | None, seed: int, workers: int) -> 
 def _edited(compiled: "Compiled", lines: list[str]) -> "Edited | None":
     """The edit that adds some lines to a file, made in memory; None where there are none."""
     from mindlang.editing.apply import apply_edit
-    from mindlang.editing.edits.add import add
+    from mindlang.editing.edits.declarations import add
     from mindlang.editing.project import EditError, open_project
 
     if not lines:

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.source import spliced
-from mindlang.editing.edits.add import add
+from mindlang.editing.edits.declarations import add
 from mindlang.editing.project import project_alone
 from mindlang.lock import Lock, lock_sources, read_locks
 from mindlang.lock.signature import arrange
