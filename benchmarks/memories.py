@@ -104,7 +104,7 @@ def ended_at(rollout: object, layout: int) -> tuple[float, float]:
 
 def main() -> None:
     """Teach each with each seed, and print a line for each."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, allow_abbrev=False)
     parser.add_argument("tasks", nargs="*", default=["corridor", "pairs", "nest"])
     parser.add_argument("--seeds", type=int, nargs="+", default=[801, 802, 803, 804, 805])
     asked = parser.parse_args()

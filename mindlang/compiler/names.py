@@ -106,6 +106,16 @@ class Names:
         tasks = self.table.get("task", {}).values()
         return self._all_things if tasks and all(task.whole for task in tasks) else None
 
+    def kind_of_memory(self, name: str) -> type[Any] | None:
+        """The kind of the memory of that name; None where there is none, or none of a kind that is known."""
+        memory = self.table.get("memory", {}).get(name)
+        return find_kind("memory", memory.header.phrase.kind.text) if memory and memory.header.phrase else None
+
+    def is_place(self, name: str) -> bool:
+        """True if the name is that of a memory of which a bearing can be."""
+        kind = self.kind_of_memory(name)
+        return kind is not None and kind.is_place
+
     @cached_property
     def draws(self) -> frozenset[str]:
         """The names of the numbers that tasks and scenes draw."""
@@ -217,6 +227,8 @@ def mentions_in(line: Setting | Header | Fact, names: Names, by: Declaration | N
     if isinstance(line, Header):
         yield Mention(line.noun.text, line.name, by, is_own=True)
     for name, nouns in names_in(line):
+        if "memory" in nouns and "thing" in nouns and not names.is_place(name.text):
+            nouns = ("thing",)
         local = "thing" if "thing" in nouns else "draw" if "draw" in nouns and name.text in names.draws else ""
         if noun := names.noun_of(name.text, nouns) or local:
             yield Mention(noun, name, by)

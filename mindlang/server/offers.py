@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mindrun.graph.graph import VARIED_NOUNS
-from mindrun.kinds.registry import Argument, arguments, find_kind, kinds
+from mindrun.kinds.registry import Argument, arguments, kinds
 from mindrun.numbers.quantity import Quantity
 
 from mindlang.compiler.names import declared_things
@@ -83,9 +83,7 @@ def things(view: MindView, task: Declaration | None, about: Iterable[str]) -> li
 
 def places(view: MindView) -> list[Offer]:
     """The memories that are places, of which a bearing can be."""
-    declared = ((name, each.header.phrase) for name, each in view.names.declarations("memory"))
-    kinds_ = {name: find_kind("memory", phrase.kind.text) for name, phrase in declared if phrase}
-    return [Offer(name, "memory") for name, kind in kinds_.items() if kind and kind.is_place]
+    return [Offer(name, "memory") for name in view.names.of("memory") if view.names.is_place(name)]
 
 
 def functions(folder: Path) -> list[str]:

@@ -118,6 +118,8 @@ def _of_skill(project: Project, skill: Declaration) -> Iterator[Proposal]:
     yield Proposal(f"Let {name} be taught again", "unfreeze", {"skill": name})
     yield Proposal(f"Freeze {name}", "freeze", {"skill": name})
     yield Proposal(f"Give {name} weights of its own", "unshare", {"skill": name})
+    yield Proposal(f"Let the links of {name} be learnt, too", "grow", {"skill": name})
+    yield Proposal(f"Take away the neurons of {name} that nothing reads", "prune", {"skill": name})
     new = _fresh_title(project, f"New{name}")
     reads = [fact.name.text for fact in of_form(skill.facts, Reads)]  # the new one is a rule where that is nothing
     put = {"skill": name, "new": new, **({"reads": reads} if reads else {"is_": "rule"})}

@@ -19,6 +19,7 @@ from mindlang.lock.blobs import blob, digest
 from mindlang.lock.status import Trained
 from tests.edits.taught import MIND, statuses, teach, write_mind
 from tests.edits.test_weights import commands, made, some_readings
+from tests.server.test_changes import everywhere
 
 ROWS = np.random.default_rng(1).random((30, 3)).astype(np.float32)
 
@@ -57,6 +58,7 @@ def test_pruning_leaves_what_leads_to_an_output(tmp_path: Path, links: str) -> N
     function.network(found, 2).cells[:, [3, 5]] = 0  # nobody reads the second neuron and the fourth
     learnt(path, "Go", found)
     before = commands(path, some_readings(path))
+    assert "prune" in {each.edit for each in everywhere(path, path.read_text())[1]}
     made(path, "prune", skill="Go")
     assert f"skill Go is neat most 3{' links any' * (links == 'any')}  #" in path.read_text()
     assert commands(path, some_readings(path)) == before

@@ -355,8 +355,7 @@ def test_widened_skills_do_the_same_to_the_bit(
     order = [[skill.name for skill in after.skills].index(skill.name) for skill in graph.skills]
     for readings in _readings(graph, data.draw):
         more = np.append(readings, np.float32(data.draw(st.sampled_from([0.0, 0.5, 1.0]))))
-        memories = len(graph.memories)  # a new sensor stands before the memories
-        place = len(readings) - memories
+        place = sum(sensor.width for sensor in graph.sensors)  # a new sensor stands before the memories
         moved = np.concatenate([readings[:place], more[-1:], readings[place:]])
         assert engines[0].tick(readings).tobytes() == engines[1].tick(moved).tobytes()
         known = ~np.isnan(engines[0].influence)  # what was out of the master's reach may be in it now
@@ -365,7 +364,7 @@ def test_widened_skills_do_the_same_to_the_bit(
 
 def _wider(graph: Graph, draw: Any) -> Graph:
     """The graph with one more sensor, which some skills read, and with more influences from parents to children."""
-    place = graph.width - len(graph.memories)
+    place = sum(sensor.width for sensor in graph.sensors)
     fresh = Sensor("fresh", Battery(), place, 1)
     memories = tuple(replace(memory, start=memory.start + 1) for memory in graph.memories)
 

@@ -237,7 +237,7 @@ def _whole_sensors(graph: Graph) -> Graph:
 
     None chooses among values with `at`: of equals the first in the text is chosen, so there the order means something.
     """
-    spans = [tuple(range(s.start, s.start + s.width)) for s in graph.sensors] + [(m.start,) for m in graph.memories]
+    spans = _spans(graph)
     skills = []
     for each in graph.skills:
         inputs = [i for span in spans if set(span) & set(each.inputs) for i in span]
@@ -246,8 +246,15 @@ def _whole_sensors(graph: Graph) -> Graph:
     return replace(graph, skills=tuple(skills))
 
 
+def _spans(graph: Graph) -> list[tuple[int, ...]]:
+    """The readings of each sensor and of each memory that skills can name."""
+    wide = [(sensor.start, sensor.width) for sensor in graph.sensors]
+    wide += [(memory.start, memory.kind.width) for memory in graph.memories]
+    return [tuple(range(start, start + width)) for start, width in wide]
+
+
 def _shuffled(graph: Graph, draw) -> Graph:
-    spans = [tuple(range(s.start, s.start + s.width)) for s in graph.sensors] + [(m.start,) for m in graph.memories]
+    spans = _spans(graph)
     order = _another_order(graph, draw)
     place = {old: new for new, old in enumerate(order)}
     skills = []

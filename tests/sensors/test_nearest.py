@@ -44,7 +44,9 @@ def state(distances: list[float], things: int, first: int = 0, count: int | None
         readings=np.zeros((1, 1), np.float32), held=np.array([-1]),
         body=np.zeros((6, 1)), heading=np.array([[1.0], [0.0]]),
     )  # fmt: skip
-    return lanes, SimpleNamespace(thing=first, things=things - first if count is None else count, boxes=0, start=0)
+    return lanes, SimpleNamespace(
+        thing=first, things=things - first if count is None else count, boxes=0, start=0, gain=0
+    )
 
 
 @given(st.lists(AWAY, min_size=1, max_size=6), st.data())
@@ -106,7 +108,7 @@ def test_it_is_inside_and_in_contact_where_one_of_its_name_is() -> None:
 def test_a_bearing_points_to_the_nearest_within_range() -> None:
     lanes, _ = state([9.0, 2.0, 4.0], 3)
     lanes.things[0::THING_ROWS, 0], lanes.things[1::THING_ROWS, 0] = (9.0, 0.0, -4.0), (0.0, 2.0, 0.0)
-    sensor = SimpleNamespace(thing=0, things=3, boxes=0, start=0, range=3.0, dead_zone=np.float32(0))
+    sensor = SimpleNamespace(thing=0, things=3, boxes=0, start=0, gain=0, range=3.0, dead_zone=np.float32(0))
     plain_lane(Bearing.lane)(None, lanes, 1, 0, sensor)
     assert lanes.readings[0, 0] == np.float32(0.25)
     sensor.range = 1.9

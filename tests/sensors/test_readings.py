@@ -91,7 +91,7 @@ class Place:
         row |= {"ray": 0, "number": 0, "servo": -1}
         scene = SimpleNamespace(tick=TICK, starts={})
         with np.errstate(divide="ignore"):
-            plain_lane(kind.lane)(tables, senses, 1, 0, SimpleNamespace(**row, **kind.row(scene)))
+            plain_lane(kind.lane)(tables, senses, 1, 0, SimpleNamespace(**row, **{"gain": 0.0, **kind.row(scene)}))
         return senses.readings[:, 0].tolist()
 
 

@@ -25,11 +25,16 @@ SEEDS = st.integers(0, 2**32 - 1)
 SHARES = st.sampled_from([0.0, 0.1, 0.5, 0.9, 1.0])
 
 
+def sensed(graph: Graph) -> int:
+    """How many readings its sensors have."""
+    return sum(sensor.width for sensor in graph.sensors)
+
+
 @st.composite
 def changes_of(draw: st.DrawFn, graph: Graph) -> tuple[Change, ...]:
     """Up to four changes of anything, from any tick on."""
     known = [("influence", number) for number in range(len(graph.skills))]
-    known += [("reading", row) for row in range(graph.width - len(graph.memories))] * 2
+    known += [("reading", row) for row in range(sensed(graph))] * 2
     known += [("memory", memory.start) for memory in graph.memories]
     found = []
     for what, row in draw(st.lists(st.sampled_from(known), min_size=1, max_size=4)):
@@ -91,11 +96,11 @@ def test_what_changes_nothing_changes_no_bit(graph: Graph, data: Any, scale: flo
     """In every tick what was read and thought anyway is put in the place of itself."""
     rollout = rollout_of(graph, weights_for(graph, scale, np.random.default_rng(seed)))
     plain = moments(rollout, seed % 1000)
-    row = data.draw(st.integers(0, graph.width - 1 - len(graph.memories))) if graph.width > len(graph.memories) else 0
+    row = data.draw(st.integers(0, max(sensed(graph) - 1, 0)))
     skill = data.draw(st.integers(0, len(graph.skills) - 1))
     changes = [Change("influence", skill, tuple(float(m.influence[skill]) for m in plain), 1)]
     said = tuple(float(m.readings[row]) for m in plain)
-    if graph.width > len(graph.memories):
+    if sensed(graph):
         changes.append(Change("reading", row, said, 1))
     assert all_same(plain, moments(rollout, seed % 1000, changes))
 

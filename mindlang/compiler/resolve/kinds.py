@@ -222,11 +222,10 @@ def _is_place(name: Name, cls: Any, scope: Scope, findings: Findings) -> bool:
 
     A memory that the kind cannot be about is reported, where there is no such thing.
     """
-    memory = scope.names.table.get("memory", {}).get(name.text)
-    phrase = memory.header.phrase if memory else None
-    found = find_kind("memory", phrase.kind.text) if phrase else None
+    is_memory = scope.names.noun_of(name.text, ("memory",)) is not None
+    found = scope.names.kind_of_memory(name.text)
     if found is None or (found.is_place and cls.can_be_reckoned):
-        return memory is not None
+        return is_memory
     if name.text in (scope.things or ()):
         return False
     of = listed(kind for kind, each in kinds("sensor").items() if each.can_be_reckoned)

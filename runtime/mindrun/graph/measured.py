@@ -44,14 +44,13 @@ def measured_on_robot(graph: Graph, wired: Collection[str]) -> list[Sensor]:
 
 
 def rows_of(graph: Graph, sensors: Iterable[Sensor]) -> Bools:
-    """A mask [graph.width] of the readings of these sensors, and of memories, which are always known."""
+    """A mask [graph.width] of the readings of these sensors, and of the memories that change by no other sensors."""
     import numpy as np
 
+    known = {sensor.name: sensor for sensor in sensors}
     found = np.zeros(graph.width, bool)
-    for each in sensors:
-        found[each.place] = True
-    for memory in graph.memories:
-        found[memory.place] = True
+    for each in (*known.values(), *graph.memories):
+        found[each.place] = isinstance(each, Sensor) or known.keys() >= {*each.kind.sources}
     return found
 
 
