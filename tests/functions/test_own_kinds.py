@@ -19,6 +19,8 @@ from mindrun.kinds.functions.array_function import ArrayFunction
 from mindrun.kinds.functions.function import Width
 from mindrun.kinds.registry import kind, kinds, refused_packages
 
+from mindlang.explaining import article, collection
+from mindlang.explaining import kinds as explained
 from mindlang.testing import check_kind
 from tests.calling import Call
 from tests.pages.transcript import Write, steps
@@ -41,7 +43,9 @@ def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Install
 
     def forget() -> None:
         importlib.invalidate_caches()
-        packages.entries.cache_clear()
+        for each in (packages.entries, *vars(article).values(), *vars(explained).values(), *vars(collection).values()):
+            if hasattr(each, "cache_clear"):
+                each.cache_clear()
         monkeypatch.setattr(registry, "_kinds", defaultdict(dict, {noun: {**found} for noun, found in known.items()}))
         monkeypatch.setattr(registry, "_brought", {})
         monkeypatch.setattr(registry, "_refused", {})

@@ -49,8 +49,10 @@ def rows_of(graph: Graph, sensors: Iterable[Sensor]) -> Bools:
 
     known = {sensor.name: sensor for sensor in sensors}
     found = np.zeros(graph.width, bool)
-    for each in (*known.values(), *graph.memories):
-        found[each.place] = isinstance(each, Sensor) or known.keys() >= {*each.kind.sources}
+    for sensor in known.values():
+        found[sensor.place] = True
+    for memory in graph.memories:
+        found[memory.place] = known.keys() >= {*memory.kind.sources}
     return found
 
 
