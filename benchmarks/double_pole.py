@@ -1,9 +1,8 @@
 """Two poles on a cart without velocities: python benchmarks/double_pole.py [--function neat] [--seeds 20].
 
-    --function elman                 `elman width 3` by `evolution_strategy`; or neat, `most 4 links any` by `genetic`
+    --function elman                 `elman width 3 centred 1` by `evolution_strategy`; or a neat by `genetic`
     --says "elman width 4"           another function; what a skill of a mind may say
     --learner "genetic population 100 octaves 2"     another learner; its `patience` begins anew where it is stuck
-    --centred                        no genome but those of whose neurons each says 1/2 where all that it reads is 1/2
 
 The task is that of Gruau, Whitley and Pyeatt (1996) as Igel (2003) and Gomez, Schmidhuber and Miikkulainen (2008) have
 it: the poles (1 m, 0.1 m) begin with the long one at 4.5 degrees, the cart is pushed with up to 10 N every 0.02 s,
@@ -23,12 +22,9 @@ from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
 from functools import cache
-from importlib import import_module
-from importlib.util import find_spec
 from multiprocessing import get_context
 from pathlib import Path
 from statistics import mean, median
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -38,6 +34,7 @@ from mindrun.numbers.arrays import Doubles
 from mindrun.numbers.network import FLOAT32
 from mindrun.processors import cores
 from mindrun.train.ask_and_tell import ask, tell
+from mindrun.train.heredity import Heredity, Part
 from mindrun.train.population import Genomes, empty_population, order
 from numpy.typing import NDArray
 
@@ -50,7 +47,7 @@ LATTICE = np.array([0.05, 0.25, 0.5, 0.75, 0.95])  # shares of the spans of 625 
 SPANS = np.radians(3.6), np.radians(8.6)  # of the long pole's angle and of its speed, to both sides
 SCORED_TICKS, LAST_TICKS, LONG_TICKS, ENOUGH_STARTS = 1000, 100, 100_000, 200
 
-SAYS = {"elman": "elman width 3", "neat": "neat most 4 links any"}
+SAYS = {"elman": "elman width 3 centred 1", "neat": "neat most 4 links any centred 1"}
 LEARNERS = {
     "elman": "evolution_strategy population 16 mutation 0.6 founders 50",
     "neat": "genetic population 1000 species 8 octaves 2 mutated 100% grow 3% link 10%",
@@ -181,33 +178,12 @@ def starts_held(of: Contest, genome: Genomes) -> int:
     return count if long == LONG_TICKS else 0
 
 
-def centred(of: Contest, genomes: Genomes) -> Genomes:
-    """The nearest genomes of whose neurons and outputs each says 1/2 where all that it reads is 1/2.
-
-    That is what a network without biases does whose readings are around 0. Where there is a bias, it alone is moved.
-    """
-    function: Any = of.skill.function
-    shapes, bias, place = function.matrix_shapes(*of.size), getattr(function, "bias", 0), 0
-    found = genomes.copy()
-    for number, (before, to) in enumerate(shapes, 1):
-        cells = found[:, place : place + before * to].reshape(len(genomes), to, before)
-        sums = np.zeros(to, np.float32)
-        sums[to - of.size[1] if number == len(shapes) else to :] = 1
-        if bias:
-            cells[..., 0] = np.where(cells[..., 1:].any(axis=2), (sums - cells[..., 1:].sum(axis=2)) / 2, 0)
-        else:
-            cells += ((sums - cells.sum(axis=2)) / before)[..., None]
-        found[:, place : (place := place + before * to)] = cells.reshape(len(genomes), -1)
-    return found
-
-
 @dataclass(frozen=True, slots=True)
 class Trial:
     """One seed of a contest."""
 
     says: str
     learner: str
-    centred: bool
     limit: int
     seed: int
 
@@ -235,11 +211,11 @@ def tried(trial: Trial) -> Outcome:
     population, best, stale = empty_population(nothing.shape[1]), -np.inf, 0
     evaluations = tests = starts = 0
     begun, tested, champion = 1, set[bytes](), nothing
+    heredity = Heredity((Part(slice(None), of.skill.function, of.size[1]),))
     while evaluations < trial.limit:
         if 0 < of.learner.patience <= stale:
             population, best, stale, begun = empty_population(nothing.shape[1]), -np.inf, 0, begun + 1
-        genomes = ask(population, of.learner, nothing.astype(np.float32), of.draw, rng, *heredity(of))
-        genomes = centred(of, genomes) if trial.centred else genomes
+        genomes = ask(population, of.learner, nothing.astype(np.float32), of.draw, rng, heredity)
         scores, held = scored(of, genomes)
         evaluations += len(genomes)
         population = tell(population, of.learner, nothing.astype(np.float32), genomes, scores)
@@ -265,18 +241,10 @@ def tried(trial: Trial) -> Outcome:
     )
 
 
-def heredity(of: Contest) -> list[Any]:
-    """How its function wants to be crossed and grown, where there are functions that do."""
-    if find_spec("mindrun.train.heredity") is None:
-        return []
-    return [import_module("mindrun.train.heredity").heredity_of(SimpleNamespace(learners=(of.skill,)))]
-
-
 def neurons(of: Contest, genome: Genomes) -> int:
     """The hidden neurons that a genome uses."""
     function: Any = of.skill.function
-    used = function.pruned(genome, of.size[1]) if hasattr(function, "pruned") else function
-    return int(used.neurons(*of.size))
+    return int(function.pruned(genome, of.size[1]).neurons(*of.size))
 
 
 def read(log: Path) -> dict[Trial, Outcome]:
@@ -320,7 +288,6 @@ def parsed() -> argparse.Namespace:
     parser.add_argument("--function", default="elman", choices=SAYS)
     parser.add_argument("--says", default="", metavar="WORDS", help="the function in full")
     parser.add_argument("--learner", default="", metavar="WORDS", help="the learner in full")
-    parser.add_argument("--centred", action="store_true", help="keep neurons at 1/2 where all they read is 1/2")
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--first", type=int, default=1, metavar="SEED", help="the first seed, others follow")
     parser.add_argument("--limit", type=int, default=400_000, metavar="EVALUATIONS", help="of a seed")
@@ -336,7 +303,7 @@ def main() -> None:
     says, learner = options.says or SAYS[options.function], options.learner or LEARNERS[options.function]
     tick(START.copy(), np.zeros((1, 1), np.float32))  # compiled once
     contest(says, learner)
-    trials = [Trial(says, learner, options.centred, options.limit, options.first + i) for i in range(options.seeds)]
+    trials = [Trial(says, learner, options.limit, options.first + i) for i in range(options.seeds)]
     options.log.parent.mkdir(parents=True, exist_ok=True)
     known = read(options.log)
     with ProcessPoolExecutor(options.workers, get_context("spawn")) as pool:
@@ -352,7 +319,7 @@ def main() -> None:
     if options.json:
         print(json.dumps([asdict(each) for each in outcomes]))
     else:
-        print(f"{says} by {learner}{', centred' * options.centred}\n{summary(outcomes, PUBLISHED[options.function])}")
+        print(f"{says} by {learner}\n{summary(outcomes, PUBLISHED[options.function])}")
 
 
 if __name__ == "__main__":

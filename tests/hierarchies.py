@@ -352,6 +352,7 @@ def networks(fewest: int) -> st.SearchStrategy[Function]:
         "hidden": st.integers(fewest, 3),
         "width": st.sampled_from([0, 0, 1, 5, 17]),
         "bias": st.integers(0, 1),
+        "centred": st.integers(0, 1),
         "most": st.integers(0, 6),
         "links": st.sampled_from(["any", "forward"]),
     }

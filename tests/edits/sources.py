@@ -22,16 +22,16 @@ LIKE = "GoHome"  # the skill that is like another, where there is one
 STEPS = "skill StepN is mlp where N is 1 to 3"  # a family, where there is one
 FUNCTIONS = (
     "mlp hidden 2",
-    "mlp hidden 1 width 4 bias 1",
+    "mlp hidden 1 width 4 bias 1 centred 1",
     "mlp",
     "elman",
-    "elman width 3 bias 1",
+    "elman width 3 bias 1 centred 1",
     "gru",
-    "gru width 3 bias 1",
+    "gru width 3 bias 1 centred 1",
     "ctrnn",
     "ctrnn width 3",
     "neat",
-    "neat most 2 links any bias 0",
+    "neat most 2 links any bias 0 centred 1",
     "procedure from own.by",
     "procedure from own.to",
 )

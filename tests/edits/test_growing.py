@@ -24,10 +24,10 @@ from tests.server.test_changes import everywhere
 ROWS = np.random.default_rng(1).random((30, 3)).astype(np.float32)
 
 
-@given(st.integers(0, 3), st.sampled_from([0, 1, 4]), st.integers(0, 1), st.integers(0, 2**32 - 1))
-def test_it_does_what_the_perceptron_did(hidden: int, width: int, bias: int, seed: int) -> None:
-    old = Mlp(hidden, width, bias)
-    new = Neat(hidden * old.neurons(3, 2))
+@given(st.integers(0, 3), st.sampled_from([0, 1, 4]), st.integers(0, 1), st.integers(0, 1), st.integers(0, 2**32 - 1))
+def test_it_does_what_the_perceptron_did(hidden: int, width: int, bias: int, centred: int, seed: int) -> None:
+    old = Mlp(hidden, width, bias, centred)
+    new = Neat(hidden * old.neurons(3, 2), centred=centred)
     weights = np.random.default_rng(seed).normal(0, 3, old.genome_length(3, 2)).astype(np.float32)
     grown = new.recast(weights, (3, 2), old)
     assert grown is not None
@@ -37,7 +37,7 @@ def test_it_does_what_the_perceptron_did(hidden: int, width: int, bias: int, see
     assert narrow.recast(weights, (3, 2), old) is None
 
 
-@pytest.mark.parametrize("function", ["mlp hidden 1", "mlp hidden 2 width 5 bias 1"])
+@pytest.mark.parametrize("function", ["mlp hidden 1", "mlp hidden 2 width 5 bias 1", "mlp centred 1"])
 def test_a_mind_does_the_same_after_it(tmp_path: Path, function: str) -> None:
     path = write_mind(tmp_path, MIND.replace("skill Go is mlp hidden 1", f"skill Go is {function}"))
     teach(path)

@@ -11,7 +11,7 @@ from mindrun.graph.policy import Policy
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.neat import Neat
 from mindrun.kinds.learners import EvolutionStrategy, Genetic
-from mindrun.numbers.links import LEAST_WEIGHT, Links
+from mindrun.numbers.links import LEAST_WEIGHT
 from mindrun.sim.rollout import Rollout
 from mindrun.train.ask_and_tell import ask, breed, tell
 from mindrun.train.heredity import Heredity, Part, heredity_of
@@ -22,7 +22,7 @@ from tests.functions.test_recurrent import MIND, follow, mind
 
 INPUTS, OUTPUTS, MOST = 3, 2, 5
 NOBODY = np.empty((0, Neat(MOST).genome_length(INPUTS, OUTPUTS)), np.float32)
-networks = st.builds(Neat, st.just(MOST), st.sampled_from(["forward", "any"]), st.integers(0, 1))
+networks = st.builds(Neat, st.just(MOST), st.sampled_from(["forward", "any"]), st.integers(0, 1), st.integers(0, 1))
 
 
 def heredity(function: Neat) -> Heredity:
@@ -84,9 +84,10 @@ def test_a_split_hardly_changes_what_is_sent_and_equal_splits_take_the_same_plac
     links = function.network(genome.copy(), OUTPUTS)
     before = np.count_nonzero(links.cells)
     links.split(np.random.default_rng(seed))
-    assert np.count_nonzero(links.cells) == before + 1 + function.bias  # its link, its bias; the old one is gone
+    biases = function.bias * (not function.centred)
+    assert np.count_nonzero(links.cells) == before + 1 + biases  # its link and its bias; the old one is gone
     assert int(links.used.sum()) == 1
-    other = Links(function.draw(INPUTS, OUTPUTS, 1, rng).reshape(links.cells.shape), MOST, function.bias, False)
+    other = function.network(function.draw(INPUTS, OUTPUTS, 1, rng)[0], OUTPUTS)
     other.split(np.random.default_rng(seed))
     assert np.array_equal(other.cells != 0, links.cells != 0)
 

@@ -15,6 +15,7 @@ from mindrun.kinds.functions.elman import Elman
 from mindrun.kinds.functions.function import NetworkFunction
 from mindrun.kinds.functions.gru import Gru
 from mindrun.kinds.functions.mlp import Mlp
+from mindrun.kinds.functions.neat import Neat
 from mindrun.numbers.arithmetic import sigmoid
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
@@ -63,8 +64,10 @@ RECURRENT = {
     "gru": MIND.replace("is elman", "is gru"),
     "ctrnn": MIND.replace("is elman", "is ctrnn"),
     "elman bias 1": MIND.replace("width 5", "width 5 bias 1"),
-    "gru bias 1": MIND.replace("is elman width 5", "is gru width 5 bias 1"),
+    "elman centred 1": MIND.replace("width 5", "width 5 centred 1"),
+    "gru bias 1 centred 1": MIND.replace("is elman width 5", "is gru width 5 bias 1 centred 1"),
     "neat links any": MIND.replace("is elman width 5", "is neat most 5 links any"),
+    "neat links any centred 1": MIND.replace("is elman width 5", "is neat most 5 links any centred 1"),
 }
 both = pytest.mark.parametrize("text", RECURRENT.values(), ids=RECURRENT)
 
@@ -121,10 +124,10 @@ def test_for_ten_thousand_ticks_a_ctrnn_in_the_lanes_is_that_of_the_engine() -> 
     assert follow(rollout, Engine(Policy(graph, {"Roam": genome})), 1, genome) == 10_000
 
 
-@pytest.mark.parametrize("bias", [0, 1])
+@pytest.mark.parametrize("bias", ["bias 0", "bias 1", "centred 1"])
 @pytest.mark.parametrize("hidden", ["mlp hidden 0", "mlp hidden 1", "mlp hidden 2", "neat most 5", "neat most 0"])
-def test_the_lanes_compute_every_hidden_layer_of_a_perceptron(hidden: str, bias: int) -> None:
-    graph = mind(MIND.replace("is elman width 5", f"is {hidden} bias {bias}"))
+def test_the_lanes_compute_every_hidden_layer_of_a_perceptron(hidden: str, bias: str) -> None:
+    graph = mind(MIND.replace("is elman width 5", f"is {hidden} {bias}"))
     weights = {"Roam": drawn(graph, 1)[0]}
     assert follow(Rollout(Policy(graph, weights), "World", "Top"), Engine(Policy(graph, weights)), 1) > 20
 
@@ -249,6 +252,29 @@ def test_a_bias_is_what_an_input_of_one_adds() -> None:
     into, out = genome[:9].reshape(3, 3), genome[9:].reshape(2, 4)
     said = np.array(sigmoids(into.tolist(), [1.0, 0.3, 0.8]))
     assert own.ready(2, 2, genome, {})(inputs) == pytest.approx(out[:, 0] + out[:, 1:] @ said, abs=1e-4)
+
+
+def test_a_centred_perceptron_is_one_whose_biases_make_up_for_it() -> None:
+    """Each is Σ w/2 less, and that of an output 1/2 more."""
+    own, inputs = Mlp(hidden=1, width=3, bias=1, centred=1), np.float32([0.3, 0.8])
+    genome = own.draw(2, 2, 1, np.random.default_rng(1))[0]
+    into, out = genome[:9].reshape(3, 3).copy(), genome[9:].reshape(2, 4).copy()
+    into[:, 0] -= into[:, 1:].sum(axis=1) / 2
+    out[:, 0] += (1 - out[:, 1:].sum(axis=1)) / 2
+    plain = Mlp(hidden=1, width=3, bias=1).ready(2, 2, np.concatenate([into.ravel(), out.ravel()]), {})
+    assert own.ready(2, 2, genome, {})(inputs) == pytest.approx(plain(inputs), abs=1e-4)
+
+
+@pytest.mark.parametrize("function", [Mlp(3), Elman(4), Gru(4), Neat(4, "any", 0), Neat(4, "forward", 0)], ids=repr)
+def test_a_centred_network_says_a_half_where_all_is_a_half(function: NetworkFunction) -> None:
+    """Whatever its weights are, and however long it goes on."""
+    centred = replace(function, centred=1)
+    genome = np.random.default_rng(1).normal(0, 4, centred.genome_length(3, 2)).astype(np.float32)
+    ready, halves = centred.ready(3, 2, genome, {}), np.full(3, 0.5, np.float32)
+    assert [ready(halves).tolist() for _ in range(4)] == [[0.5, 0.5]] * 4
+    sent = [ready(np.float32([0.5, 0.9, 0.5])).tolist() for _ in range(2)]
+    assert sent[0] != [0.5, 0.5]
+    assert (sent[0] != sent[1]) == bool(centred.state_length(3, 2))
 
 
 @pytest.mark.parametrize("now", [1, 0])

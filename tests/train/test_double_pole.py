@@ -17,7 +17,6 @@ from benchmarks.double_pole import (
     Outcome,
     Trial,
     balance,
-    centred,
     contest,
     other_starts,
     read,
@@ -130,7 +129,7 @@ def test_the_other_starts_are_gruaus() -> None:
 
 def test_a_trial_does_the_same_again_and_is_read_from_its_log(tmp_path: Path) -> None:
     learner = "evolution_strategy population 8 mutation 1 founders 10 patience 5 generations"
-    trial = Trial(SAYS["elman"], learner, True, 200, 1)
+    trial = Trial(SAYS["elman"], learner, 200, 1)
     first, second = (asdict(tried(trial)) | {"seconds": 0} for _ in range(2))
     assert first == second
     assert first["evaluations"] >= 200
@@ -139,14 +138,3 @@ def test_a_trial_does_the_same_again_and_is_read_from_its_log(tmp_path: Path) ->
     (tmp_path / "log").write_text(f"{line}\n{line[:40]}")
     assert read(tmp_path / "log") == {trial: Outcome(**first)}
     assert read(tmp_path / "none") == {}
-
-
-@pytest.mark.parametrize("says", ["elman width 3", "mlp hidden 2 width 4"])
-def test_a_centred_network_says_a_half_where_it_reads_a_half(says: str) -> None:
-    of = contest(says, LEARNERS["elman"])
-    genomes, half = centred(of, of.draw(5, np.random.default_rng(1))), np.full((5, 3), 0.5, np.float32)
-    memory = np.full((5, of.skill.function.state_length(*of.size)), 0.5, np.float32)
-    outputs, memory = of.skill.function.forward(TERMS, [*of.matrices(genomes)], half, memory)
-    assert outputs == pytest.approx(0.5, abs=1e-5)
-    assert memory == pytest.approx(0.5, abs=1e-5)
-    assert centred(of, genomes) == pytest.approx(genomes, abs=1e-5)

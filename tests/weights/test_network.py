@@ -17,7 +17,7 @@ from tests.edits.taught import MIND, write_mind
 
 KINDS = {
     kind: MIND.replace("skill Avoid is mlp hidden 2", f"skill Avoid is {kind}")
-    for kind in ("mlp", "elman", "gru", "ctrnn", "elman bias 1")
+    for kind in ("mlp", "elman", "gru", "ctrnn", "elman bias 1 centred 1")
 }
 
 

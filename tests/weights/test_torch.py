@@ -36,7 +36,7 @@ SHAPES = (
     "elman",
     "elman width 3",
     "gru",
-    "gru bias 1",
+    "gru bias 1 centred 1",
     "ctrnn",
 )
 

@@ -24,4 +24,5 @@ def grow(project: Project, skill: str) -> MindChange:
     if most > MOST_NEURONS:
         message = f"{skill} has {most} neurons, and a neat has room for {MOST_NEURONS}."
         raise EditError(message, "Teach a narrower one first.", declaration.header.span)
-    return MindChange((replace_span(phrase.span, f"neat most {most}"),), recast=skill)
+    grown = f"neat most {most}{' centred 1' * own.function.centred}"
+    return MindChange((replace_span(phrase.span, grown),), recast=skill)

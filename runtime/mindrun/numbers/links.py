@@ -28,6 +28,7 @@ class Links:
     most: int
     bias: int
     is_recurrent: bool  # a neuron may read itself and those behind it
+    centred: int = 0  # 1 if all is read less 1/2
 
     @property
     def direct(self) -> int:
@@ -84,7 +85,7 @@ class Links:
         if not free:
             return
         neuron = max(free, key=lambda each: crc32(f"{row} {place} {each}".encode()))
-        self.cells[neuron, column], self.cells[neuron, : self.bias] = NEW_WEIGHT, NEW_BIAS
+        self.cells[neuron, column], self.cells[neuron, : self.bias] = NEW_WEIGHT, NEW_BIAS * (not self.centred)
         self.cells[row, self.direct + neuron], self.cells[row, column] = self.cells[row, column], 0
 
 

@@ -78,7 +78,7 @@ SENSOR = _columns(
     f4="low high dead_zone gain blank",
 )
 SKILL = _columns(
-    i8="index input inputs outputs hidden width bias weights own edge edges state chooses", u8="lane address"
+    i8="index input inputs outputs hidden width bias centred weights own edge edges state chooses", u8="lane address"
 )
 # Scopes are rows of `mind.scoped`: that of what weighs a command, or −1, and those in which an influence counts, too.
 EDGE = _columns(i8="to_skill target output code length when whens other others scope scoped scopes", f4="cuts")

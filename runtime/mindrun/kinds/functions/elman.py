@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from mindrun.kinds.functions.function import Bias, NetworkFunction, Width
-from mindrun.kinds.functions.mlp import layer
+from mindrun.kinds.functions.function import NetworkFunction, Switch, Width
+from mindrun.kinds.functions.mlp import centre, layer
 from mindrun.kinds.registry import kind, left_out
 
 if TYPE_CHECKING:  # a lane is given its terms when it is compiled
@@ -24,7 +24,8 @@ class Elman(NetworkFunction):
     """
 
     width: Width = 0
-    bias: Bias = left_out(0)
+    bias: Switch = left_out(0)
+    centred: Switch = left_out(0)
 
     opaque = "remembers what it computed"
 
@@ -39,11 +40,11 @@ class Elman(NetworkFunction):
     def forward(self, of: Terms, matrices: Sequence[Any], inputs: Any, state: Any) -> tuple[Any, Any]:
         """h' = σ(H·[x, h]), and the outputs O·h'; h are the hidden neurons' last outputs, h' the new state.
 
-        With a bias, of both matrices the first column is added.
+        With a bias, of both matrices the first column is added. A centred one keeps h less 1/2.
         """
         hidden, last = matrices
-        said = of.sigmoid(of.product(self.read(of, of.joined(inputs, state)), hidden))
-        return of.product(self.read(of, said), last), said
+        said = self.taken(of.sigmoid(of.product(self.read(of, of.joined(self.taken(inputs), state)), hidden)))
+        return self.sent(of.product(self.read(of, said), last)), said
 
     def scratch(self, inputs: int, outputs: int) -> int:
         return self.neurons(inputs, outputs) + outputs
@@ -53,8 +54,11 @@ class Elman(NetworkFunction):
         """Write the outputs of `forward` behind the hidden neurons, which are remembered."""
         width: int = skill.width
         recall(s, skill, n)
+        centre(skill, s.gathered, skill.inputs, -HALF, n)
         last = layer(t, s, skill, skill.weights, s.gathered, skill.inputs + width, s.hidden, width, False, n)
+        centre(skill, s.hidden, width, -HALF, n)
         layer(t, s, skill, last, s.hidden, width, s.hidden[width:], skill.outputs, True, n)
+        centre(skill, s.hidden[width:], skill.outputs, HALF, n)
         remember(s, skill, s.hidden, n)
         return width
 

@@ -18,11 +18,12 @@ if TYPE_CHECKING:
     from mindrun.numbers.network import Terms
 
 Width = Annotated[int, Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)]
-Bias = Annotated[int, Quantity("a whole number", {"": 1.0}, low=0, high=1, whole=True)]
+Switch = Annotated[int, Quantity("a whole number", {"": 1.0}, low=0, high=1, whole=True)]
 # Of the weights that learning begins with, 4: without biases, small weights leave every sigmoid near 1/2. Tried on a
 # stand-in for GoToObject, 6 seeds each, until 17 targets: with 1 one seed got there in 100 M ticks, with 2 all by the
 # 10th generation, with 4 five in the first; 6 (until 22 targets) was no better than 4.
 INITIAL_SPREAD = 4.0
+MIDDLE_READING = 0.5  # what most readings are when all is well
 
 
 @runtime_checkable
@@ -45,6 +46,7 @@ class Function:
     has_outputs = True  # whether edges without `at` can send one
     grows = False  # whether it learns which of its inputs it reads, too
     bias = 0  # 1 if each of its matrices has a first column that reads 1
+    centred = 0  # 1 if its matrices read all else less 1/2, and 1/2 is added to what they send
     opaque = ""  # why nothing can be proved of its outputs, even with its weights
     calls: str | None = None  # the Python function whose text belongs to the mind, `module.function`, if it calls one
     in_arrays = False  # whether numpy computes it in the lanes, too, for all runs at once (`ArrayFunction.computed`)
@@ -176,7 +178,8 @@ class NetworkFunction(Function):
     """A network of matrices with neurons of a `width` (0: Eq. 5, max(inputs, outputs) + 2).
 
     Without inputs or outputs it has no matrices. Its last one gives the outputs. With `bias 1` each matrix has one more
-    column, the first: what it reads there is always 1.
+    column, the first: what it reads there is always 1. With `centred 1` inputs and neurons are read less 1/2, and the
+    outputs are 1/2 more than the sums.
     """
 
     __slots__ = ()
@@ -200,18 +203,27 @@ class NetworkFunction(Function):
         return replace(self, width=self.neurons(inputs, outputs))  # type: ignore[type-var]
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
-        return {"width": self.neurons(inputs, outputs), "bias": self.bias if inputs and outputs else 0}
+        size = {"width": self.neurons(inputs, outputs), "bias": self.bias, "centred": self.centred}
+        return size if inputs and outputs else {}
 
     def read(self, of: Terms, values: Any) -> Any:
         """The values [..., values] that a matrix reads: with a bias 1 before them."""
         return of.biased(values) if self.bias else values
+
+    def taken(self, values: Any) -> Any:
+        """Inputs, or what neurons say, as they are read."""
+        return values - MIDDLE_READING if self.centred else values
+
+    def sent(self, sums: Any) -> Any:
+        """The outputs for the sums of the last matrix."""
+        return sums + MIDDLE_READING if self.centred else sums
 
     def draw(self, inputs: int, outputs: int, count: int, rng: np.random.Generator) -> Weights:
         """Random genomes [count, weights] whose outputs are 1/2 where all neurons say 1/2."""
         import numpy as np
 
         genomes = INITIAL_SPREAD * rng.standard_normal((count, self.genome_length(inputs, outputs)), np.float32)
-        for before, after in self.matrix_shapes(inputs, outputs)[-1:]:
+        for before, after in () if self.centred else self.matrix_shapes(inputs, outputs)[-1:]:
             last = genomes[:, -before * after :].reshape(count, after, before)
             if self.bias:
                 last[..., 0] = (1 - last[..., 1:].sum(axis=2)) / 2
@@ -228,6 +240,7 @@ class NetworkFunction(Function):
             and size[0] >= its[0]
             and self.state_length(*size) >= other.state_length(*its)
             and self.bias >= other.bias
+            and self.centred == other.centred
         )
 
     def widened(

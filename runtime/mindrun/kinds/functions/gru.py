@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from mindrun.kinds.functions.elman import recall, remember
-from mindrun.kinds.functions.function import Bias, NetworkFunction, Width
-from mindrun.kinds.functions.mlp import layer
+from mindrun.kinds.functions.function import NetworkFunction, Switch, Width
+from mindrun.kinds.functions.mlp import centre, layer
 from mindrun.kinds.registry import kind, left_out
 
 if TYPE_CHECKING:  # a lane is given its terms when it is compiled
@@ -27,7 +27,8 @@ class Gru(NetworkFunction):
     """
 
     width: Width = 0
-    bias: Bias = left_out(0)
+    bias: Switch = left_out(0)
+    centred: Switch = left_out(0)
 
     opaque = "remembers what it computed"
     readers = 3
@@ -43,14 +44,15 @@ class Gru(NetworkFunction):
     def forward(self, of: Terms, matrices: Sequence[Any], inputs: Any, state: Any) -> tuple[Any, Any]:
         """r, u = σ(R·[x, s]), σ(U·[x, s]); c = σ(C·[x, r·s]); s' = u·s + (1 − u)·c, and the outputs O·s'.
 
-        With a bias, of each matrix the first column is added.
+        With a bias, of each matrix the first column is added. A centred one takes c less 1/2, and so keeps s.
         """
         reset, update, candidate, last = matrices
-        both = self.read(of, of.joined(inputs, state))
+        values = self.taken(inputs)
+        both = self.read(of, of.joined(values, state))
         through, kept = of.sigmoid(of.product(both, reset)), of.sigmoid(of.product(both, update))
-        new = of.sigmoid(of.product(self.read(of, of.joined(inputs, through * state)), candidate))
+        new = self.taken(of.sigmoid(of.product(self.read(of, of.joined(values, through * state)), candidate)))
         said = kept * state + (1 - kept) * new
-        return of.product(self.read(of, said), last), said
+        return self.sent(of.product(self.read(of, said), last)), said
 
     def scratch(self, inputs: int, outputs: int) -> int:
         return 3 * self.neurons(inputs, outputs) + outputs
@@ -62,16 +64,19 @@ class Gru(NetworkFunction):
         width: int = skill.width
         reset, kept, new = s.hidden[:width], s.hidden[width : 2 * width], s.hidden[2 * width : 3 * width]
         recall(s, skill, n)
+        centre(skill, s.gathered, inputs, -HALF, n)
         place = layer(t, s, skill, skill.weights, s.gathered, inputs + width, reset, width, False, n)
         place = layer(t, s, skill, place, s.gathered, inputs + width, kept, width, False, n)
         for j in range(width):
             for p in range(0, n, LANES):
                 store(s.gathered, inputs + j, p, load(reset, j, p) * load(s.gathered, inputs + j, p))
         place = layer(t, s, skill, place, s.gathered, inputs + width, new, width, False, n)
+        centre(skill, new, width, -HALF, n)
         recall(s, skill, n)
         for j in range(width):
             for k in range(n):
                 new[j, k] = kept[j, k] * s.gathered[inputs + j, k] + (ONE - kept[j, k]) * new[j, k]
         layer(t, s, skill, place, new, width, s.hidden[3 * width :], skill.outputs, True, n)
+        centre(skill, s.hidden[3 * width :], skill.outputs, HALF, n)
         remember(s, skill, new, n)
         return 3 * width

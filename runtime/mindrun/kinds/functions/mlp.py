@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.kinds.functions.function import Bias, NetworkFunction, Width
+from mindrun.kinds.functions.function import NetworkFunction, Switch, Width
 from mindrun.kinds.registry import kind, left_out
 from mindrun.numbers.quantity import Quantity
 
@@ -27,7 +27,8 @@ class Mlp(NetworkFunction):
 
     hidden: Annotated[int, HIDDEN] = 2
     width: Width = 0
-    bias: Bias = left_out(0)
+    bias: Switch = left_out(0)
+    centred: Switch = left_out(0)
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
         widths = [self.neurons(inputs, outputs)] * self.hidden
@@ -39,14 +40,15 @@ class Mlp(NetworkFunction):
 
     def forward(self, of: Terms, matrices: Sequence[Any], inputs: Any, state: Any) -> tuple[Any, Any]:
         *hidden, last = matrices
-        values = inputs
+        values = self.taken(inputs)
         for matrix in hidden:
-            values = of.sigmoid(of.product(self.read(of, values), matrix))
-        return of.product(self.read(of, values), last), state
+            values = self.taken(of.sigmoid(of.product(self.read(of, values), matrix)))
+        return self.sent(of.product(self.read(of, values), last)), state
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
         shapes = self.matrix_shapes(inputs, outputs)
-        return {"hidden": len(shapes) - 1, "width": shapes[0][1], "bias": self.bias} if shapes else {}
+        own = {"hidden": len(shapes) - 1, "width": shapes[0][1]} if shapes else {}
+        return {**NetworkFunction.row(self, inputs, outputs), **own}
 
     def scratch(self, inputs: int, outputs: int) -> int:
         return 2 * max(self.neurons(inputs, outputs) if self.hidden else 0, outputs)
@@ -57,12 +59,14 @@ class Mlp(NetworkFunction):
         half: int = s.hidden.shape[0] // 2
         source, inputs, place = s.gathered, skill.inputs, skill.weights
         base = half
+        centre(skill, source, inputs, -HALF, n)
         for number in range(skill.hidden + 1):
             base = half - base
             target = s.hidden[base : base + half]
             last = number == skill.hidden
             outputs = skill.outputs if last else skill.width
             place = layer(t, s, skill, place, source, inputs, target, outputs, last, n)
+            centre(skill, target, outputs, HALF if last else -HALF, n)
             source, inputs = target, outputs
         return base
 
@@ -79,6 +83,13 @@ def layer(
     else:
         dense(t.weights[place:], source, inputs, skill.bias, target, outputs, last, n)
     return place + (inputs + skill.bias) * outputs
+
+
+def centre(skill: Any, values: Any, rows: int, by: Any, n: int) -> None:
+    """Add `by` to the first rows of values [row, lane], where the function of a skill is centred."""
+    for j in range(rows if skill.centred else 0):
+        for p in range(0, n, LANES):
+            store(values, j, p, load(values, j, p) + splat(by))
 
 
 def dense(w: Any, source: Any, inputs: int, bias: int, target: Any, outputs: int, last: bool, n: int) -> None:

@@ -7,9 +7,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from mindrun.kinds.functions.elman import recall, remember
-from mindrun.kinds.functions.function import INITIAL_SPREAD, Bias, Function, NetworkFunction
-from mindrun.kinds.functions.mlp import layer
-from mindrun.kinds.registry import kind
+from mindrun.kinds.functions.function import INITIAL_SPREAD, Function, NetworkFunction, Switch
+from mindrun.kinds.functions.mlp import centre, layer
+from mindrun.kinds.registry import kind, left_out
 from mindrun.numbers.quantity import Quantity, Reference
 
 if TYPE_CHECKING:  # a lane is given its terms when it is compiled
@@ -37,7 +37,8 @@ class Neat(NetworkFunction):
 
     most: Most = 8
     links: Annotated[Reach, Reference("direction", ("any", "forward"))] = "forward"
-    bias: Bias = 1
+    bias: Switch = 1
+    centred: Switch = left_out(0)
 
     derived = ()
     grows = True
@@ -65,12 +66,12 @@ class Neat(NetworkFunction):
     def forward(self, of: Terms, matrices: Sequence[Any], inputs: Any, state: Any) -> tuple[Any, Any]:
         """Neuron after neuron: h[r] = σ(W[r]·[1, x, h]), where h is new before r; then the outputs W·[1, x, h]."""
         [links] = matrices
-        now = self.read(of, inputs)
+        now = self.read(of, self.taken(inputs))
         for row in range(self.most):
             read = of.joined(now, state[..., row:]) if self.is_recurrent else now
-            now = of.joined(now, of.sigmoid(of.product(read, links[row : row + 1, : read.shape[-1]])))
+            now = of.joined(now, self.taken(of.sigmoid(of.product(read, links[row : row + 1, : read.shape[-1]]))))
         after = now[..., now.shape[-1] - self.most :] if self.is_recurrent else state
-        return of.product(now, links[self.most :]), after
+        return self.sent(of.product(now, links[self.most :])), after
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
         return {**NetworkFunction.row(self, inputs, outputs), "hidden": self.is_recurrent}
@@ -86,11 +87,14 @@ class Neat(NetworkFunction):
         if skill.hidden:
             recall(s, skill, n)
         place = skill.weights
+        centre(skill, s.gathered, inputs, -HALF, n)
         for r in range(most):
             read = inputs + (most if skill.hidden else r)
             layer(t, s, skill, place, s.gathered, read, s.gathered[inputs + r :], 1, False, n)
+            centre(skill, s.gathered[inputs + r :], 1, -HALF, n)
             place += skill.bias + inputs + most
         layer(t, s, skill, place, s.gathered, inputs + most, s.hidden, skill.outputs, True, n)
+        centre(skill, s.hidden, skill.outputs, HALF, n)
         if skill.hidden:
             remember(s, skill, s.gathered[inputs:], n)
         return 0
@@ -138,7 +142,7 @@ class Neat(NetworkFunction):
 
         from mindrun.numbers.network import matrices
 
-        if not self.genome_length(*size) or of.bias > self.bias:
+        if not self.genome_length(*size) or of.bias > self.bias or of.centred != self.centred:
             return None
         if isinstance(of, Neat):
             old, now = of.network(weights, size[1]), of.pruned(weights, size[1])
@@ -186,7 +190,7 @@ class Neat(NetworkFunction):
         """The links that weights are; the same memory."""
         from mindrun.numbers.links import Links
 
-        return Links(weights.reshape(self.most + outputs, -1), self.most, self.bias, self.is_recurrent)
+        return Links(weights.reshape(self.most + outputs, -1), self.most, self.bias, self.is_recurrent, self.centred)
 
     def grown(self, genomes: Weights, outputs: int, rates: Genetic, rng: np.random.Generator) -> Weights:
         found, chosen = genomes.copy(), rng.random((len(genomes), 3)) < (rates.drop, rates.link, rates.grow)
