@@ -183,8 +183,9 @@ def _wide(entry: Entry, old: Skill, graph: Graph, new: Skill) -> tuple[Entry, We
     It may have no input any more that no link led from.
 
     What is new has weights of zero, so the outputs are the same to the bit: a sum that zeros stand in is the same
-    sum, and an output of zero is no influence. It is a command, though, and would be averaged: a skill that drives more
-    has no weights that do the same.
+    sum, and an output of zero is no influence. It is a command, though, and would be averaged, and among those of which
+    a skill `chooses one` it may be the greatest: a skill that drives more, or chooses among more, has no weights that
+    do the same.
     """
     weights: Weights | None = load_weights(entry, old)
     was, now = entry.signature, signature(graph, new)
@@ -199,7 +200,8 @@ def _wide(entry: Entry, old: Skill, graph: Graph, new: Skill) -> tuple[Entry, We
         for before, after in ((was.reads, now.reads), (was.sends, now.sends))
     )
     influenced = {graph.named("skill", edge.target) for edge in new.edges if edge.to == "skill"}
-    if not set(sends[len(was.sends) :]) <= influenced:
+    more = set(sends[len(was.sends) :])
+    if not more <= influenced or (more and new.chooses):
         return None
     before, after = (sum(map(width, was.reads)), len(was.sends)), (sum(map(width, reads)), len(sends))
     found = old.function.widened(weights, before, new.function, after)

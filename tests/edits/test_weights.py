@@ -306,6 +306,16 @@ def test_a_new_subskill_starts_without_influence(drive: Path) -> None:
     assert commands(drive, readings) == before
 
 
+def test_who_chooses_among_more_is_taught_again(drive: Path) -> None:
+    """An influence of 0 may be the greatest of all."""
+    spin = "skill Spin is rule\n  drives left_wheel at 1\n  drives right_wheel at 0\n\n"
+    choosing = MIND.replace("  influences Grab at 1", "  chooses one").replace("task Roam", f"{spin}task Roam")
+    drive.write_text(choosing)
+    teach(drive)
+    with pytest.raises(EditError, match=re.escape("Drive cannot keep its weights: sends Spin is new.")):
+        made(drive, "integrate", keep_weights=True, skill="Drive", with_=("Spin",))
+
+
 @pytest.mark.parametrize(
     ("name", "said", "why"),
     [
@@ -383,6 +393,7 @@ def _wider(graph: Graph, draw: Any) -> Graph:
         ]
         if genes(skill):
             inputs += (place,) * draw(st.booleans())
+        if genes(skill) and not skill.chooses:
             known = {edge.target for edge in edges if edge.to == "skill"}
             below = [n for n in range(number + 1, len(graph.skills)) if n not in known]
             for target in draw(st.lists(st.sampled_from(below), unique=True, max_size=2)) if below else []:
