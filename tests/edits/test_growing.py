@@ -1,5 +1,6 @@
 """A perceptron becomes a network that grows and does the same to the bit, and one that has grown is pruned."""
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 from mindrun.files.npy import to_npy
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.neat import Neat
+from networkx import node_link_graph
 
 from mindlang.compiler.compile import load
 from mindlang.editing.project import EditError
@@ -17,6 +19,7 @@ from mindlang.lint.lint import lint
 from mindlang.lock import lock_path, read_lock, write_lock
 from mindlang.lock.blobs import blob, digest
 from mindlang.lock.status import Trained
+from tests.calling import Call
 from tests.edits.taught import MIND, statuses, teach, write_mind
 from tests.edits.test_weights import commands, made, some_readings
 from tests.server.test_changes import everywhere
@@ -64,6 +67,29 @@ def test_pruning_leaves_what_leads_to_an_output(tmp_path: Path, links: str) -> N
     assert commands(path, some_readings(path)) == before
     with pytest.raises(EditError, match="From each neuron of Go a way leads to an output"):
         made(path, "prune", skill="Go")
+
+
+def test_what_grew_is_shown(tmp_path: Path, mindc: Call) -> None:
+    path = write_mind(tmp_path, MIND.replace("skill Go is mlp hidden 1", "skill Go is neat most 3 links any centred 1"))
+    teach(path)
+    cells = np.zeros((5, 5), np.float32)  # bias, ball_bearing, three neurons: what these read, and then both wheels
+    cells[0, 0], cells[2, 1], cells[2, 4], cells[3, 1], cells[3, 4] = 7, -2, 0.5, 1.25, -4
+    learnt(path, "Go", cells.ravel())
+    lines = mindc("show", path, "Go").out.splitlines()
+    assert lines == [
+        "Go: 5 of 25 links",
+        "├── left_wheel = 0.50 + 1.25 (ball_bearing - 1/2) - 4.00 (neuron 3 - 1/2)",
+        "├── right_wheel = 0.50",
+        "└── neuron 3 = σ(-2.00 (ball_bearing - 1/2) + 0.50 (neuron 3 - 1/2))",
+    ]
+    drawn = node_link_graph(json.loads(mindc("show", path, "Go", "--json").out), edges="links")
+    assert dict(drawn.nodes(data="role")) == {
+        "left_wheel": "output", "right_wheel": "output", "ball_bearing": "reading", "neuron 3": "neuron",
+    }  # fmt: skip
+    assert (
+        '"neuron 3" -> "left_wheel" [label="-4.00" penwidth=5.0 style=dashed]' in mindc("show", path, "Go", "--dot").out
+    )
+    assert "Avoid is mlp: only a neat has links that grew" in mindc("show", path, "Avoid").err
 
 
 def test_what_no_link_leads_from_is_told_and_taken_out(tmp_path: Path) -> None:
