@@ -47,10 +47,12 @@ LATTICE = np.array([0.05, 0.25, 0.5, 0.75, 0.95])  # shares of the spans of 625 
 SPANS = np.radians(3.6), np.radians(8.6)  # of the long pole's angle and of its speed, to both sides
 SCORED_TICKS, LAST_TICKS, LONG_TICKS, ENOUGH_STARTS = 1000, 100, 100_000, 200
 
-SAYS = {"elman": "elman width 3 centred 1", "neat": "neat most 4 links any centred 1"}
+SAYS = {"elman": "elman width 3 centred 1", "neat": "neat most 4 links any bias 0 centred 1"}
 LEARNERS = {
     "elman": "evolution_strategy population 16 mutation 0.6 founders 50",
-    "neat": "genetic population 1000 species 8 octaves 2 mutated 100% grow 3% link 10%",
+    "neat": (
+        "genetic population 150 elite 5% species 8 octaves 4 mutated 60% grow 3% link 20% patience 40 generations"
+    ),
 }
 PUBLISHED = {
     "elman": "CMA-ES 6,061 (Igel, 2003), CoSyNE 3,416 (Gomez et al., 2008)",
