@@ -219,14 +219,14 @@ def _neutral(flows: EdgeFlows, ends: _Ends) -> float | None:
 
 
 def _contribution(flows: EdgeFlows, ends: _Ends, path: FoundPath) -> Contribution:
-    """A path in the mean over the ticks; its value where it has a part, weighed by that."""
+    """A path in the mean over the ticks; its value where it has a part, weighed by that, or in all if it has none."""
     place = ends.edges.index(path.edges[-1])
     sources = [flows.links[edge].source for edge in path.edges]
     names = [flows.graph.skills[source].name for source in sources] + [flows.graph.named(*ends.target)]
     with np.errstate(all="ignore"):
         along = np.where(ends.fractions[place] > 0, path.part / ends.fractions[place], 0.0)
     sent = ends.values[place]
-    value = sent[0] if (sent == sent[0]).all() else np.average(sent, weights=path.part)
+    value = sent[0] if (sent == sent[0]).all() else np.average(sent, weights=path.part if path.part.any() else None)
     influence, share = ends.mean(along * ends.behind[place]), ends.mean(along * ends.shares[place])
     return Contribution(tuple(names), float(value), influence, ends.mean(path.part), share)
 

@@ -84,7 +84,12 @@ def _hierarchy(graph: Graph, of: About, skills: Sequence[Skill], columns: Column
     """`nodes`, `edges` and `reads`."""
     nodes = _nodes(graph, skills, of.by_hand)
     numbers = {node: number for number, node in enumerate(nodes)}
-    read_from = [numbers[key] for key, node in nodes.items() if node.group == "readings" for _ in node.places]
+    read_from = {
+        row: numbers[noun, number]
+        for noun, parts in (("sensor", graph.sensors), ("memory", graph.memories))
+        for number, part in enumerate(parts)
+        for row in range(part.place.start, part.place.stop)
+    }
     own = {skill.name: numbers["skill", graph.skill_numbers[skill.name]] for skill in skills}
     promises = _promises(skills, columns)
     return {

@@ -103,8 +103,9 @@ def test_weights_are_copied_into_the_order_of_the_learner(tmp_path: Path) -> Non
             "elman width 5",
             "gru",
             "gru width 5",
-            "mlp hidden 2 centred 1",
-            "gru bias 1",
+            "mlp hidden 2 bias 1 centred 1",
+            "gru bias 1 centred 1",
+            "neat most 3 centred 1",
             "ctrnn",
             "ctrnn width 5",
         ]

@@ -304,7 +304,7 @@ def _origin(written: Sequence[Argument]) -> Name | None:
 def _holds(learner: model.Skill, other: model.Skill, widths: Widths) -> bool:
     """True if the learner computes the other's function once some of its weights are 0: no layer of it is smaller."""
     (own, size), (other_own, its) = (_sized(skill, widths) for skill in (learner, other))
-    return own == other_own or own.holds(size, other_own, its)
+    return (own, size) == (other_own, its) or own.holds(size, other_own, its)
 
 
 def _sized(skill: model.Skill, widths: Widths) -> "tuple[Function, tuple[int, int]]":

@@ -15,8 +15,12 @@ if TYPE_CHECKING:
 
 
 def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> tuple[list[Sensor], list[Sensor]]:
-    """The sensors on which reached skills depend, and those beside on which only rewards and ends do; sources first."""
-    skills = with_sources(graph, {row for skill in reached for row in skill.inputs})
+    """The sensors on which reached skills depend, and those beside on which only rewards and ends do; sources first.
+
+    Those by which memories change are among the first: a memory is known in each world.
+    """
+    kept = {memory.start for memory in graph.memories}
+    skills = with_sources(graph, kept | {row for skill in reached for row in skill.inputs})
     rows = {index for program in task.programs for index in leaves(program, "reading")}
     rows |= {row for reward in task.rewards if reward.each for row in range(reward.each[0], sum(reward.each))}
     return skills, [sensor for sensor in with_sources(graph, rows) if sensor not in skills]

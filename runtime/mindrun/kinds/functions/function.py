@@ -233,8 +233,10 @@ class NetworkFunction(Function):
 
     def holds(self, size: tuple[int, int], other: Function, its: tuple[int, int]) -> bool:
         large, small = self.matrix_shapes(*size), other.matrix_shapes(*its)
+        can_be_silent = self.bias >= self.centred  # a new output of a centred one is 0 by its bias alone
         return (
             type(self) is type(other)
+            and (size[1] == its[1] or can_be_silent)
             and 0 < len(large) == len(small)
             and all(a >= b and c >= d for (a, c), (b, d) in zip(large, small, strict=True))
             and size[0] >= its[0]
@@ -257,7 +259,14 @@ class NetworkFunction(Function):
         found = (np.pad(matrix, ((0, 0), (new, 0))) for matrix in matrices(weights, small))
         cuts = [bias + before[0] if number < self.readers else shape[0] + new for number, shape in enumerate(small)]
         places = [bias + after[0] if number < self.readers else shape[0] for number, shape in enumerate(large)]
-        return genome(map(padded, found, large, cuts, places))
+        wide = [*map(padded, found, large, cuts, places)]
+        self.silence(wide[-1][before[1] :], now.bias)
+        return genome(wide)
+
+    def silence(self, rows: Weights, bias: int) -> None:
+        """Make outputs 0 whose weights [outputs, values in] are."""
+        if self.centred:
+            rows[:, :bias] = -MIDDLE_READING
 
     def reordered(self, weights: Weights, inputs: Sequence[int], outputs: Sequence[int]) -> Weights:
         from mindrun.numbers.network import genome, matrices

@@ -117,6 +117,7 @@ class Neat(NetworkFunction):
         first, behind = now.bias, now.bias + after[0]
         columns = [*range(self.bias), *range(first, first + before[0]), *range(behind, behind + self.most)]
         cells[np.ix_(rows, columns)] = np.where(own.allowed, own.cells, 0)
+        self.silence(cells[now.most + before[1] :], now.bias)
         return found
 
     def narrowed(self, weights: Weights, outputs: int, kept: Sequence[int]) -> Weights | None:
