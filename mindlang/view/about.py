@@ -84,12 +84,9 @@ def _hierarchy(graph: Graph, of: About, skills: Sequence[Skill], columns: Column
     """`nodes`, `edges` and `reads`."""
     nodes = _nodes(graph, skills, of.by_hand)
     numbers = {node: number for number, node in enumerate(nodes)}
-    read_from = {
-        row: numbers[noun, number]
-        for noun, parts in (("sensor", graph.sensors), ("memory", graph.memories))
-        for number, part in enumerate(parts)
-        for row in range(part.place.start, part.place.stop)
-    }
+    places = [("sensor", number, each.place) for number, each in enumerate(graph.sensors)]
+    places += [("memory", number, each.place) for number, each in enumerate(graph.memories)]
+    read_from = {row: numbers[noun, number] for noun, number, at in places for row in range(at.start, at.stop)}
     own = {skill.name: numbers["skill", graph.skill_numbers[skill.name]] for skill in skills}
     promises = _promises(skills, columns)
     return {
