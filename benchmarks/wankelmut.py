@@ -34,7 +34,7 @@ def taught(seed: int, folder: Path) -> str:
     kept = [skill for skill in ALONE if alone(path, skill) == before[skill]]
     found = mindlang.load(path).rollout("Wankelmut", "Waver").score(NO_GENOME, layouts(UNSEEN_SEED, RUNS)).total[0]
     solved = int((found >= SOLVED_PERCENT).sum())
-    return f"{found.mean():.1f} % of steps right, {solved} of {RUNS} runs solved; as before: {', '.join(kept) or 'none'}"
+    return f"{found.mean():.1f} % right, solved in {solved} of {RUNS} runs, as before: {', '.join(kept) or 'none'}"
 
 
 def main() -> None:
