@@ -20,9 +20,10 @@ ALONE = "Up", "Down"
 
 
 def alone(path: Path, skill: str) -> bytes:
-    """The score of each of its own runs."""
-    rollout = mindlang.load(path).rollout(skill, skill)
-    return bytes(rollout.score(NO_GENOME, layouts(UNSEEN_SEED, ALONE_RUNS)).total.tobytes())
+    """The weights of a skill, and the score of each of its own runs."""
+    mind = mindlang.load(path)
+    found = mind.rollout(skill, skill).score(NO_GENOME, layouts(UNSEEN_SEED, ALONE_RUNS)).total
+    return bytes(mind.policy(skill).weights[skill].tobytes() + found.tobytes())
 
 
 def taught(seed: int, folder: Path) -> str:
