@@ -15,7 +15,7 @@ from benchmarks.workloads import COLLECT
 from mindlang.run.setup import NO_GENOME, layouts
 
 SOLVED_PERCENT = 95
-RUNS, ALONE_RUNS, UNSEEN_SEED = 100, 400, 9
+FRESH_RUNS, ALONE_RUNS, UNSEEN_SEED = 100, 400, 9
 ALONE = "Up", "Down"
 
 
@@ -33,9 +33,10 @@ def taught(seed: int, folder: Path) -> str:
     before = {skill: alone(path, skill) for skill in ALONE}
     mindlang.load(path).train("Waver", seed=seed, runs=folder)
     kept = [skill for skill in ALONE if alone(path, skill) == before[skill]]
-    found = mindlang.load(path).rollout("Wankelmut", "Waver").score(NO_GENOME, layouts(UNSEEN_SEED, RUNS)).total[0]
-    solved = int((found >= SOLVED_PERCENT).sum())
-    return f"{found.mean():.1f} % right, solved in {solved} of {RUNS} runs, as before: {', '.join(kept) or 'none'}"
+    rollout = mindlang.load(path).rollout("Wankelmut", "Waver")
+    found = rollout.score(NO_GENOME, layouts(UNSEEN_SEED, FRESH_RUNS)).total[0]
+    solved = f"solved in {(found >= SOLVED_PERCENT).sum()} of {FRESH_RUNS} runs"
+    return f"{found.mean():.1f} % right, {solved}, as before: {', '.join(kept) or 'none'}"
 
 
 def main() -> None:
