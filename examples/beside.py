@@ -44,13 +44,13 @@ class Comparison:
     """What beside.toml in an example's folder says.
 
     The `task` that episodes are of, and the score from which one is `solved`; `others`: the file of each mind beside
-    the hierarchy, by its name in the table; `also`: a file and a master in it that tries what the hierarchy was taught,
-    by what its column is called.
+    the hierarchy, or the file and who is in charge in it, by its name in the table; `also`: a file and a master in it
+    that tries what the hierarchy was taught, by what its column is called.
     """
 
     task: str
     solved: float
-    others: Mapping[str, str] = field(default_factory=lambda: {"mlp": "monolith.mind"})
+    others: Mapping[str, str | tuple[str, str]] = field(default_factory=lambda: {"mlp": "monolith.mind"})
     also: Mapping[str, tuple[str, str]] = field(default_factory=dict)
 
 
@@ -96,7 +96,7 @@ class Plan:
     @property
     def teachers(self) -> Mapping[str, Callable[[int], Taught]]:
         """What is taught, in this order."""
-        others = {kind: partial(beside, self, file) for kind, file in self.comparison.others.items()}
+        others = {kind: partial(beside, self, said) for kind, said in self.comparison.others.items()}
         return {HIERARCHY: partial(hierarchy, self), **others}
 
     def seed_folder(self, seed: int) -> Path:
@@ -114,7 +114,8 @@ def main() -> None:
         allow_abbrev=False, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("example", type=Path, help="its folder, with beside.toml in it")
-    parser.add_argument("--seeds", type=whole(1, 1000), default=5)
+    parser.add_argument("--seeds", type=whole(1, 1000), default=5, help="how many")
+    parser.add_argument("--first", type=whole(0, 2**32), default=1, help="the first of them")
     parser.add_argument("--runs", type=whole(2, 1_000_000), default=1000, help="fresh episodes of each seed")
     parser.add_argument("--episodes", type=whole(0, 2**62), default=20261123, help="draws the fresh episodes")
     parser.add_argument("--scale", type=real(0, 1000), default=1.0, help="times the generations of the mind's lessons")
@@ -124,11 +125,12 @@ def main() -> None:
     folder = options.example.resolve()
     comparison = Comparison(**tomllib.loads((folder / "beside.toml").read_text(encoding="utf-8")))
     out = options.out or Path("runs") / folder.name
-    plan, seeds = Plan(folder, comparison, out, options.runs, options.episodes, options.scale), options.seeds
+    plan = Plan(folder, comparison, out, options.runs, options.episodes, options.scale)
+    seeds = range(options.first, options.first + options.seeds)
     out.mkdir(parents=True, exist_ok=True)
     with ProcessPoolExecutor(options.processes, get_context("spawn")) as pool:
         for kind in plan.teachers:
-            left = [seed for seed in range(1, seeds + 1) if not plan.path(kind, seed).exists()]
+            left = [seed for seed in seeds if not plan.path(kind, seed).exists()]
             for found in pool.map(partial(try_out, plan, kind), left):
                 print(row(plan, found), flush=True)
                 (out / "RESULTS.md").write_text(report(plan, seeds), encoding="utf-8")
@@ -171,11 +173,12 @@ def hierarchy(plan: Plan, seed: int) -> Taught:
     return Taught(mind.rollout(task, mind.graph.master), NO_GENOME, also, weights, dict(steps))
 
 
-def beside(plan: Plan, file: str, seed: int) -> Taught:
-    """Teach the lessons under a mind's master, each in as many steps as its learner had in the hierarchy."""
+def beside(plan: Plan, said: str | tuple[str, str], seed: int) -> Taught:
+    """Teach the lessons under a master, each in as many steps as its learner had in the hierarchy."""
     limits = read(plan, HIERARCHY, seed).steps
+    file, *named = [said] if isinstance(said, str) else said
     mind = mindlang.load(plan.seed_folder(seed) / file)
-    master = mind.graph.master
+    [master] = named or [mind.graph.master]
     lessons = [lesson for lesson in mind.graph.lessons if lesson.master == master]
     skills = sorted({lesson.skill for lesson in lessons})
     rollout = mind.rollout(plan.comparison.task, master, skills)
@@ -212,9 +215,9 @@ def read(plan: Plan, kind: str, seed: int) -> Outcome:
     return Outcome(**json.loads(plan.path(kind, seed).read_text(encoding="utf-8")))
 
 
-def report(plan: Plan, seeds: int) -> str:
+def report(plan: Plan, seeds: Sequence[int]) -> str:
     """The page with the table of the seeds that have been taught."""
-    done = {kind: [seed for seed in range(1, seeds + 1) if plan.path(kind, seed).exists()] for kind in plan.teachers}
+    done = {kind: [seed for seed in seeds if plan.path(kind, seed).exists()] for kind in plan.teachers}
     outcomes = {kind: [read(plan, kind, seed) for seed in numbers] for kind, numbers in done.items()}
     text = Template((plan.folder / "RESULTS.template.md").read_text(encoding="utf-8"))
     solved = "; ".join(solving(plan, kind, found) for kind, found in outcomes.items())
