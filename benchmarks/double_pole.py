@@ -51,7 +51,7 @@ SAYS = {"elman": "elman width 3 centred 1", "neat": "neat most 4 links any bias 
 LEARNERS = {
     "elman": "evolution_strategy population 16 mutation 0.6 founders 50",
     "neat": (
-        "genetic population 150 elite 5% species 8 octaves 4 mutated 60% grow 3% link 20% patience 40 generations"
+        "genetic population 1000 elite 2% species 15 octaves 4 mutated 60% grow 3% link 20% patience 25 generations"
     ),
 }
 PUBLISHED = {
