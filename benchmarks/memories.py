@@ -1,15 +1,17 @@
-"""Tasks that need a memory: python -m benchmarks.memories [corridor] [pairs] [nest] --seeds 801 802 803 804 805.
+"""Tasks that need a memory: python -m benchmarks.memories [corridor] [cpt] [pairs] [nest] --seeds 801 802 803 804 805.
 
 The minds of examples/memories, taught from scratch with each seed in a folder of their own, then 400 runs on layouts
-that no training has seen. `corridor` at lengths of 10 to 120 ticks, with its register, with a cell in the place of it
-(which holds nothing by itself), and without a memory; `pairs` with its registers and without; `nest` with noise of 2 %
-on odometers and compass.
+that no training has seen (100 of `cpt`, `pairs` and `nest`). `corridor` at lengths of 10 to 120 ticks, with its
+register, with a cell in the place of it (which holds nothing by itself), and without a memory; `cpt` (AX-CPT) and
+`pairs` (1-2-AX) with their registers and without; `nest` with noise of 2 % on odometers and compass.
 """
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from itertools import groupby
 from math import hypot
 from pathlib import Path
+from statistics import fmean
 from tempfile import TemporaryDirectory
 from time import perf_counter
 
@@ -21,11 +23,14 @@ from benchmarks.workloads import COLLECT
 from mindlang.compiler.compile import load
 from mindlang.run.setup import set_up
 
-BENCH_RUNS, NEST_RUNS, UNSEEN_SEED = 400, 100, 9
+Question = Callable[[dict[str, float]], tuple[str, bool] | None]
+Changes = dict[str, dict[str, str]]
+BENCH_RUNS, TRACED_RUNS, UNSEEN_SEED = 400, 100, 9
 LENGTHS_TICKS = 10, 20, 60, 120
 NEST_UNITS = 3.0
 FORGETTING = {"memory note is register start 50%": "memory note is cell decay 0 start 50%"}
 WITHOUT_NOTE = {"  reads note\n": ""}
+WITHOUT_CUE = {"  reads cue\n": ""}
 WITHOUT_LETTERS = {"  reads context\n": "", "  reads letter\n": ""}
 
 
@@ -62,28 +67,53 @@ def corridor(seed: int, folder: Path) -> Iterator[str]:
 
 
 def pairs(seed: int, folder: Path) -> Iterator[str]:
-    """The share of pairs that are answered rightly, of what can be had in each."""
-    for what, changes in {"registers": {}, "no memory": WITHOUT_LETTERS}.items():
-        path = taught("pairs", folder, changes, seed)
-        lines = mindlang.load(path).bench(runs=BENCH_RUNS, seed=UNSEEN_SEED)
-        yield f"{what}: {right_answers(path):.1%} of pairs, score {lines['score_mean']:.2f}"
+    """The share of pairs of 1-2-AX that are answered rightly."""
+    yield from answers("pairs", pair, {"registers": {}, "no memory": WITHOUT_LETTERS}, seed, folder)
 
 
-def right_answers(path: Path) -> float:
-    """The share of pairs in which the lamp is right in every tick of the answer."""
+def cpt(seed: int, folder: Path) -> Iterator[str]:
+    """The share of trials of AX-CPT that are answered rightly, and of those of each kind."""
+    yield from answers("cpt", trial, {"register": {}, "no memory": WITHOUT_CUE}, seed, folder)
+
+
+def answers(name: str, asks: Question, variants: Changes, seed: int, folder: Path) -> Iterator[str]:
+    """A line for each variant of an example that asks."""
+    for what, changes in variants.items():
+        right = right_answers(taught(name, folder, changes, seed), asks)
+        every = [each for kind in right.values() for each in kind]
+        kinds = ", ".join(f"{kind} {fmean(right[kind]):.1%}" for kind in sorted(right))
+        yield f"{what}: {fmean(every):.1%} of {len(every)}, {kinds}"
+
+
+def pair(read: dict[str, float]) -> tuple[str, bool] | None:
+    """What is asked in a tick of 1-2-AX, and whether the answer is yes; None where nothing is asked."""
+    if read["inner"] < 0.58:
+        return None
+    kind = "12"[read["digit"] < 0.5] + "AB"[read["first"] < 0.5] + "XY"[read["second"] < 0.5]
+    return kind, kind in ("1AX", "2BY")
+
+
+def trial(read: dict[str, float]) -> tuple[str, bool] | None:
+    """What is asked in a tick of AX-CPT, and whether the answer is yes; None where nothing is asked."""
+    kind = "AB"[read["isB"] > 0.5] + "XY"[read["isY"] > 0.5]
+    return (kind, kind == "AX") if read["asked"] > 0.5 else None
+
+
+def right_answers(path: Path, asks: Question) -> dict[str, list[bool]]:
+    """For each kind of question whether each was answered rightly: the lamp is right in every tick of the answer."""
     setup = set_up(str(path), load(path), None, None)
-    graph, rollout, right, asked = setup.ready.policy.graph, setup.rollout(), 0, 0
+    graph, rollout = setup.ready.policy.graph, setup.rollout()
     rows = {sensor.name: sensor.start for sensor in graph.sensors}
-    for seed in setup.layouts(UNSEEN_SEED, NEST_RUNS):
-        pair: list[bool] = []
-        for moment in trace(rollout, seed).moments:
-            read = {name: float(moment.readings[row]) for name, row in rows.items()}
-            if read["inner"] > 0.58:
-                same = read["first"] == read["second"] == read["digit"]
-                pair.append((float(moment.commands[0]) > 0.5) == same)
-            elif pair:
-                right, asked, pair = right + all(pair), asked + 1, []
-    return right / asked
+    right: dict[str, list[bool]] = {}
+    for seed in setup.layouts(UNSEEN_SEED, TRACED_RUNS):
+        moments = [*trace(rollout, seed).moments]
+        asked = [asks({name: float(each.readings[row]) for name, row in rows.items()}) for each in moments]
+        said = [float(each.commands[0]) > 0.5 for each in moments]
+        for question, ticks in groupby(zip(asked, said, strict=True), lambda tick: tick[0]):
+            if question:
+                kind, yes = question
+                right.setdefault(kind, []).append(all(answer == yes for _, answer in ticks))
+    return right
 
 
 def nest(seed: int, folder: Path) -> Iterator[str]:
@@ -91,7 +121,7 @@ def nest(seed: int, folder: Path) -> Iterator[str]:
     path = taught("nest", folder, {}, seed)
     setup = set_up(str(path), load(path), None, None)
     rollout = setup.rollout()
-    away = sorted(hypot(*ended_at(rollout, layout)) for layout in setup.layouts(UNSEEN_SEED, NEST_RUNS))
+    away = sorted(hypot(*ended_at(rollout, layout)) for layout in setup.layouts(UNSEEN_SEED, TRACED_RUNS))
     share = sum(each <= NEST_UNITS for each in away) / len(away)
     yield f"{share:.0%} within {NEST_UNITS:g}, median {away[len(away) // 2]:.2f}, worst {away[-1]:.2f}"
 
@@ -105,7 +135,7 @@ def ended_at(rollout: object, layout: int) -> tuple[float, float]:
 def main() -> None:
     """Teach each with each seed, and print a line for each."""
     parser = argparse.ArgumentParser(description=__doc__, allow_abbrev=False)
-    parser.add_argument("tasks", nargs="*", default=["corridor", "pairs", "nest"])
+    parser.add_argument("tasks", nargs="*", default=["corridor", "cpt", "pairs", "nest"])
     parser.add_argument("--seeds", type=int, nargs="+", default=[801, 802, 803, 804, 805])
     asked = parser.parse_args()
     for task in asked.tasks:
