@@ -67,7 +67,7 @@ SEEN = {
     "those, drawn, four kernels of 3 × 3": ("rays eyes", "bench.camera convolves 1"),
     "48 rays": ("around", "mlp hidden 1 width 7"),
 }
-ROUNDS = 7
+SPEED_ROUNDS = 7
 CALM_NEURONS = 7  # as large as of so many neurons the sums of an output are at first
 Size = Annotated[int, Quantity("a whole number", {"": 1.0}, low=1, high=63, whole=True)]
 
@@ -222,7 +222,7 @@ def rates() -> None:
         skill = [SIGHT, f"skill GoToObject is {function}", *(f"  reads {each}" for each in read.split()), ""]
         text = COLLECT.read_text().replace(head, "\n".join(skill))
         _, rollouts[name] = ready(text, "GoToObject+Avoid", "GoToObject", "GoToObject")
-    for number in range(ROUNDS):
+    for number in range(SPEED_ROUNDS):
         for name, rollout in rollouts.items():
             genomes = np.random.default_rng(number).normal(0, 0.3, (256, rollout.genome_length)).astype(np.float32)
             begun = time.process_time()
