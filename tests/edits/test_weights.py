@@ -306,11 +306,13 @@ def test_a_new_subskill_starts_without_influence(drive: Path) -> None:
     assert commands(drive, readings) == before
 
 
-def test_who_chooses_among_more_is_taught_again(drive: Path) -> None:
-    """An influence of 0 may be the greatest of all."""
+@pytest.mark.parametrize("instead", ["  chooses one", "  influences Grab at 1"], ids=["chooses", "centred"])
+def test_who_sends_no_0_where_its_weights_are_is_taught_again(drive: Path, instead: str) -> None:
+    """An influence of 0 may be the greatest of all, and that of a centred network without a bias is 1/2."""
     spin = "skill Spin is rule\n  drives left_wheel at 1\n  drives right_wheel at 0\n\n"
-    choosing = MIND.replace("  influences Grab at 1", "  chooses one").replace("task Roam", f"{spin}task Roam")
-    drive.write_text(choosing)
+    text = MIND.replace("  influences Grab at 1", instead).replace("task Roam", f"{spin}task Roam")
+    centred = " centred 1" if "chooses" not in instead else ""
+    drive.write_text(text.replace("skill Drive is mlp hidden 2", f"skill Drive is mlp hidden 2{centred}"))
     teach(drive)
     with pytest.raises(EditError, match=re.escape("Drive cannot keep its weights: sends Spin is new.")):
         made(drive, "integrate", keep_weights=True, skill="Drive", with_=("Spin",))
@@ -393,7 +395,7 @@ def _wider(graph: Graph, draw: Any) -> Graph:
         ]
         if genes(skill):
             inputs += (place,) * draw(st.booleans())
-        if genes(skill) and not skill.chooses:
+        if genes(skill) and not skill.chooses and skill.function.bias >= skill.function.centred:
             known = {edge.target for edge in edges if edge.to == "skill"}
             below = [n for n in range(number + 1, len(graph.skills)) if n not in known]
             for target in draw(st.lists(st.sampled_from(below), unique=True, max_size=2)) if below else []:
