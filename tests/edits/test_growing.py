@@ -112,6 +112,23 @@ def test_what_no_link_leads_from_is_told_and_taken_out(tmp_path: Path) -> None:
         made(path, "disconnect", keep_weights=True, skill="Go", target="ball_bearing")
 
 
+def test_a_place_is_read_where_a_link_leads_from_either_of_its_readings(tmp_path: Path) -> None:
+    turns = "sensor {0}_turns is odometer side {0}\n"
+    declared = turns.format("left") + turns.format("right") + "sensor north is compass\n"
+    home = f"{declared}memory home is place left left_turns right right_turns compass north\n"
+    text = MIND.replace("memory mood", f"{home}memory mood").replace(
+        "skill Go is mlp hidden 1  # to the ball\n", "skill Go is neat most 0\n  reads home\n"
+    )
+    path = write_mind(tmp_path, text)
+    teach(path)
+    found = np.zeros((2, 4), np.float32)
+    for place, said in ((1, 0), (2, 0), (3, 1)):  # which of the bias, both of the place's and the ball's
+        found[:] = 0
+        found[0, place] = found[0, 3 if place < 3 else 0] = 1
+        learnt(path, "Go", found.ravel())
+        assert len([each for each in lint(load(path), ["unused-reading"]) if " home" in each.message]) == said
+
+
 def learnt(path: Path, skill: str, weights: np.ndarray) -> None:
     """Put weights into the lock in place of those of a skill."""
     lock = read_lock(lock_path(path))

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from heapq import heappop, heappush
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 from mindrun.graph.graph import Need
 from mindrun.kinds.functions.function import Function
@@ -24,9 +24,6 @@ from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.resolve.worlds import RobotFacts
 from mindlang.compiler.syntax import Amount, Argument, Name, Needs, Phrase, Teaches, of_form
-
-if TYPE_CHECKING:
-    pass
 
 # Words that a lesson says beside the arguments of its learner.
 FROM, SCRATCH = "from", "scratch"

@@ -99,7 +99,7 @@ def _unlinked(study: Study) -> Found:
     """What a skill reads whose network was taught, and no link leads from."""
     graph, states = arrange(study.graph, study.lock), status(study.graph, study.lock)
     places = {each.name: range(each.start, each.start + each.width) for each in graph.sensors}
-    places |= {each.name: range(each.start, each.start + 1) for each in graph.memories}
+    places |= {each.name: range(each.start, each.start + each.kind.width) for each in graph.memories}
     for skill in (each for each in graph.skills if each.function.grows and not each.like):
         state, unread = states[skill.name], set[int]()
         if isinstance(state, Trained):

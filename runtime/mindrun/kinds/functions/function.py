@@ -77,7 +77,7 @@ class Function:
         return 0
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
-        """The kind's own columns of the lanes' table of skills: `hidden`, `width` and `bias`."""
+        """The kind's own columns of the lanes' table of skills: `hidden`, `width`, `bias` and `centred`."""
         return {}
 
     def scratch(self, inputs: int, outputs: int) -> int:
