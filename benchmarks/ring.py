@@ -1,9 +1,10 @@
-"""What weights are worth that readings share: python benchmarks/ring.py [--angles 10 --rates].
+"""What weights are worth that readings share: python benchmarks/ring.py [--angles 10 --task Seek --rates].
 
-Teaches Avoid of examples/collect with range finders at equal angles, once with each seed and each function. A `ring` is
-such a function, a prototype that is no part of the language: a kernel that goes round the readings, then a dense layer.
-With `half` a function drives one wheel, and its mirror image the other. With `--rates` it says how many ticks a
-CPU second has where a skill reads rays, and where an image of 8 × 6 pixels is drawn of them.
+Teaches Avoid of examples/collect with range finders at equal angles, once with each seed and each function; or Seek:
+an eye at the same angles, too, shows the object of GoToObject+Avoid, and one skill has to do it all. A `ring` is such a
+function, a prototype that is no part of the language: a kernel that goes round the readings, then a dense layer. With
+`half` a function drives one wheel, and its mirror image the other. With `--rates` it says how many ticks a CPU second
+has where a skill reads rays, and where an image of 8 × 6 pixels is drawn of them.
 """
 
 from __future__ import annotations
@@ -33,27 +34,34 @@ if TYPE_CHECKING:  # a lane is given its terms when it is compiled
 
 LEARNER = "founders 1000 octaves 2 mutated 20%"
 FUNCTIONS = (
-    "bench.ring readings {rays} kernel 3 channels 4",
-    "bench.ring readings {rays} kernel 3 channels 2 bias 0",
+    "bench.ring readings {rays} senses {senses} kernel 3 channels 4",
+    "bench.ring readings {rays} senses {senses} kernel 3 channels 2 bias 0",
     "neat most 8",
     "mlp hidden 0",
     "mlp hidden 1 width 7",
     "mlp hidden 2",
 )
+WHOLE = """skill {task} is {function}
+{reads}
+  drives left_wheel
+  drives right_wheel
+"""
 HALVES = """skill Left is {function}
-  reads proximity
-  reads moving
-  reads pulse
+{reads}
   drives left_wheel
 
 skill Right is like Left
-  reads mirrored for proximity
+{mirrored}
   drives right_wheel for left_wheel
 
-skill Avoid is rule
+skill {task} is rule
   influences Left at 1
   influences Right at 1
 """
+TASKS = {  # the task of examples/collect, which wide sensors its skill reads, and what else
+    "Avoid": ("Avoid", ["proximity"], ["moving", "pulse"]),
+    "Seek": ("GoToObject+Avoid", ["proximity", "seen"], []),
+}
 SIGHT = """sensor rays is range_finder at {eight} deg range 30
 sensor eyes is eye of object at {eight} deg range 30
 sensor around is range_finder at {many} deg range 30
@@ -85,16 +93,21 @@ class Shared(NetworkFunction):
 
 @kind("skill", "bench.ring")
 class Ring(Shared):
-    """Sigmoids of a kernel that goes round the first readings; a dense layer reads them and all other readings."""
+    """Sigmoids of a kernel that goes round the first readings; a dense layer reads them and all other readings.
+
+    It goes round several wide sensors of so many readings at once, and sees of each what lies at the same angles.
+    """
 
     readings: Size = 10
+    senses: Size = 1
     kernel: Size = 3
     channels: Size = 4
     bias: Switch = 1
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
-        dense = self.readings * self.channels + inputs - self.readings + self.bias
-        return ((self.kernel + self.bias, self.channels), (dense, outputs)) if inputs and outputs else ()
+        dense = self.readings * self.channels + inputs - self.readings * self.senses + self.bias
+        shared = self.kernel * self.senses + self.bias, self.channels
+        return (shared, (dense, outputs)) if inputs and outputs else ()
 
     def draw(self, inputs: int, outputs: int, count: int, rng: np.random.Generator) -> Weights:
         genomes = NetworkFunction.draw(self, inputs, outputs, count, rng)
@@ -105,19 +118,23 @@ class Ring(Shared):
 
     def forward(self, of: Terms, matrices: Sequence[Any], inputs: Any, state: Any) -> tuple[Any, Any]:
         shared, last = matrices
-        first, ring, rest = self.kernel // 2, inputs[..., : self.readings], inputs[..., self.readings :]
-        around = of.joined(ring[..., self.readings - first :], of.joined(ring, ring[..., : self.kernel - 1 - first]))
-        windows = [around[..., place : place + self.kernel] for place in range(self.readings)]
-        said = of.sigmoid(of.product(self.read(of, windows[0]), shared))
-        for window in windows[1:]:
+        columns = [inputs[..., row : row + 1] for row in range(self.readings * self.senses)]
+        said = inputs[..., :0]
+        for ray in range(self.readings):
+            window = inputs[..., :0]
+            for place in range(ray - self.kernel // 2, ray - self.kernel // 2 + self.kernel):
+                for column in columns[place % self.readings :: self.readings]:
+                    window = of.joined(window, column)
             said = of.joined(said, of.sigmoid(of.product(self.read(of, window), shared)))
+        rest = inputs[..., self.readings * self.senses :]
         return of.product(self.read(of, of.joined(said, rest)), last), state
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
-        return {"hidden": self.readings + 64 * self.kernel, "width": self.channels, "bias": self.bias}
+        sizes = self.readings + 64 * self.kernel + 64 * 64 * self.senses
+        return {"hidden": sizes, "width": self.channels, "bias": self.bias}
 
     def gathered(self, inputs: int, outputs: int) -> int:
-        return inputs + self.readings + self.kernel
+        return inputs + (self.readings + self.kernel) * self.senses
 
     def scratch(self, inputs: int, outputs: int) -> int:
         return self.readings * self.channels + inputs + outputs
@@ -125,20 +142,22 @@ class Ring(Shared):
     @staticmethod
     def lane(t: Any, s: Any, skill: Any, n: int) -> int:
         """Copy the readings once round, so that each window stands in one piece; then layer after layer."""
-        readings, kernel = skill.hidden % 64, skill.hidden // 64
+        readings, kernel, senses = skill.hidden % 64, skill.hidden // 64 % 64, skill.hidden // 4096
         inputs, channels, around = skill.inputs, skill.width, s.gathered[skill.inputs :]
         for j in range(readings + kernel - 1):
-            for p in range(0, n, LANES):
-                store(around, j, p, load(s.gathered, (j + readings - kernel // 2) % readings, p))
+            for sense in range(senses):
+                row = sense * readings + (j + readings - kernel // 2) % readings
+                for p in range(0, n, LANES):
+                    store(around, j * senses + sense, p, load(s.gathered, row, p))
         dense = skill.weights
         for j in range(readings):
             said = s.hidden[j * channels :]
-            dense = layer(t, s, skill, skill.weights, around[j:], kernel, said, channels, False, n)
+            dense = layer(t, s, skill, skill.weights, around[j * senses :], kernel * senses, said, channels, False, n)
         end = readings * channels
-        for j in range(readings, inputs):
+        for j in range(readings * senses, inputs):
             for p in range(0, n, LANES):
-                store(s.hidden, end + j - readings, p, load(s.gathered, j, p))
-        end += inputs - readings
+                store(s.hidden, end + j - readings * senses, p, load(s.gathered, j, p))
+        end += inputs - readings * senses
         layer(t, s, skill, dense, s.hidden, end, s.hidden[end:], skill.outputs, True, n)
         return int(end)
 
@@ -190,19 +209,27 @@ class Camera(Shared):
         return 96
 
 
-def avoiding(function: str, rays: int, learner: str) -> tuple[Any, Rollout]:
-    """The lesson of Avoid with so many rays all round, and its rollout, compiled."""
-    first = 180 / rays - 180 if function.startswith("half ") or rays > 10 else 0  # a mirror needs pairs
+def taught(function: str, rays: int, learner: str, its_task: str) -> tuple[Any, Rollout]:
+    """The lesson of a task with so many rays all round, and its rollout, compiled."""
+    halves = function.startswith("half ")
+    first = 180 / rays - 180 if halves or rays > 10 else 0  # a mirror needs pairs
     angles = " ".join(f"{first + 360 / rays * ray:g}" for ray in range(rays))
-    text, halves = COLLECT.read_text(), function.startswith("half ")
-    taught = HALVES.format(function=function[5:]) if halves else f"skill Avoid is {function}\n"
-    was = r"skill Avoid is mlp hidden 2\n" + (r"(  .*\n)*" if halves else "")
-    text = re.sub(r"(sensor proximity is range_finder) at .* deg", rf"\1 at {angles} deg", re.sub(was, taught, text))
-    name = "Left" if halves else "Avoid"
-    if halves:
-        text = text.replace("sensor moving", "sensor mirrored is mirrored of proximity\nsensor moving", 1)
-    text = re.sub("teaches Avoid on Avoid .*", f"teaches {name} on Avoid under Avoid for 100000 generations", text)
-    return ready(text.replace("population 100", learner), "Avoid", "Avoid", name)
+    task, wide, others = TASKS[its_task]
+    said = (HALVES if halves else WHOLE).format(
+        task=task,
+        function=function.removeprefix("half "),
+        reads="\n".join(f"  reads {each}" for each in (*wide, *others)),
+        mirrored="\n".join(f"  reads mirrored_{each} for {each}" for each in wide),
+    )
+    eyes = f"sensor seen is eye of object at {angles} deg range 100\n" if "seen" in wide else ""
+    eyes += "".join(f"sensor mirrored_{each} is mirrored of {each}\n" for each in wide if halves)
+    text = re.sub(r"(sensor proximity is range_finder) at .* deg", rf"\1 at {angles} deg", COLLECT.read_text())
+    text = re.sub(rf"skill {re.escape(task)} is mlp hidden 2\n(  .*\n)*", said, text)
+    text = text.replace("sensor object_bearing", f"{eyes}sensor object_bearing", 1)
+    name = "Left" if halves else task
+    lesson = f"teaches {name} on {task} under {task} for 100000 generations"
+    text = re.sub(rf"teaches {re.escape(task)} on {re.escape(task)} .*", lesson, text)
+    return ready(text.replace("population 100", learner), task, task, name)
 
 
 def ready(text: str, task: str, master: str, skill: str) -> tuple[Any, Rollout]:
@@ -236,6 +263,7 @@ def main() -> None:
     """Teach, try, print."""
     parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
     parser.add_argument("--angles", type=int, default=10, help="how many rays go round")
+    parser.add_argument("--task", default="Avoid", choices=TASKS)
     parser.add_argument("--functions", nargs="+", default=FUNCTIONS)
     parser.add_argument("--learner", default=LEARNER)
     parser.add_argument("--ticks", type=float, default=50e6)
@@ -245,12 +273,14 @@ def main() -> None:
     if options.rates:
         rates()
         return
-    for function in (each.format(rays=options.angles) for each in options.functions):
-        lesson, rollout = avoiding(function, options.angles, options.learner)
+    senses = len(TASKS[options.task][1])
+    for function in (each.format(rays=options.angles, senses=senses) for each in options.functions):
+        lesson, rollout = taught(function, options.angles, options.learner, options.task)
         runs = [learn(lesson, rollout, seed, options.ticks) for seed in options.seeds]
         print(function, *(LINE.format(**run) for run in runs), sep="\n", flush=True)
         counts = np.array([run["count"] for run in runs])
-        print(f"{counts.mean():.1f} ± {counts.std(ddof=1) / len(counts) ** 0.5:.1f} patches", flush=True)
+        error = counts.std(ddof=1) / len(counts) ** 0.5
+        print(f"{counts.mean():.1f} ± {error:.1f} {options.task}", flush=True)
 
 
 if __name__ == "__main__":

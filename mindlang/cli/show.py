@@ -65,10 +65,10 @@ def _hierarchy(compiled: "Compiled") -> "Drawn":
 def _links(file: str, compiled: "Compiled", skill: str) -> "Drawn":
     """The links of a skill; where it has none, the program ends."""
     from mindlang.training.subject import open_subject
-    from mindlang.weights.links import links_dot, links_of, links_tree
+    from mindlang.weights.links import links_dot, links_tree, taught_links
 
     terminal.refuse_standard_input(file, "Weights are kept beside a file, and standard input is none.")
     terminal.known_skills(compiled.whole[1], skill)
     with terminal.refusing(end="."):
-        links = links_of(open_subject(Path(file), compiled), skill)
+        links = taught_links(open_subject(Path(file), compiled), skill)
     return links, links_tree(links), links_dot(links)

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Graph, Skill, Task
 from mindrun.graph.named_readings import reading_names, servo_reading
+from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import About
 from mindrun.kinds.registry import names
 from mindrun.robot.hand import hand_on
@@ -17,6 +18,7 @@ from mindlang.run import outcome
 from mindlang.run.promises import VERDICTS
 from mindlang.view.messages import shown
 from mindlang.view.rows import Columns
+from mindlang.weights.links import links_of
 
 Texts = Mapping[tuple[str, str], str]  # what a line says, by the names of its skill and of whom it is for
 Data = dict[str, Any]
@@ -34,9 +36,10 @@ class PlacedNode(NamedTuple):
 
 
 def about_data(
-    of: About, graph: Graph, task: Task | None, skills: Sequence[Skill], columns: Columns, texts: Texts
+    of: About, policy: Policy, task: Task | None, skills: Sequence[Skill], columns: Columns, texts: Texts
 ) -> Data:
     """The constant data of rows with these columns; `skills` are those below the master, parents first."""
+    graph = policy.graph
     rewards = [reward.text for reward in task.rewards] if task else []
     has_robot, held = not (task and task.scene.environment), hand_on(graph, of.master, of.by_hand).held
     return {
@@ -50,6 +53,18 @@ def about_data(
         "by_hand": [{"name": name, "neutral": each.neutral, "role": each.role} for name, each in held.items()],
         "curves": _curves(graph, skills, columns, rewards, has_robot),
         **_hierarchy(graph, of, skills, columns, texts),
+        "links": [_links(policy, skill) for skill in skills if skill.function.grows],
+    }
+
+
+def _links(policy: Policy, skill: Skill) -> Data:
+    """The network of a skill that grew: `nodes` with what they are, and `links` from one to another, with a weight."""
+    links = links_of(policy.graph, skill, policy.weights[skill.like or skill.name])
+    numbers = {name: number for number, name in enumerate(links)}
+    return {
+        "skill": shown(skill.name),
+        "nodes": [{"name": shown(name), "role": role} for name, role in links.nodes(data="role")],
+        "links": [[numbers[source], numbers[to], weight] for source, to, weight in links.edges(data="weight")],
     }
 
 

@@ -68,7 +68,7 @@ def viewed_rows(
         "of_ticks": of_ticks,
         "drawn": drawing is not None,
         "events": happens,
-        **about_data(of, mind.graph, task, skills, columns, texts or {}),
+        **about_data(of, mind.policy, task, skills, columns, texts or {}),
     }
     growth = partial(_growth, rows, of, task, promises, len(happens), watch)
     return Viewed(about, columns, growth, mind.graph, ready, drawing, of_ticks is None)

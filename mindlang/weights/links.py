@@ -4,14 +4,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from mindrun.errors import WeightsError
-from mindrun.graph.graph import Graph
+from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.named_readings import reading_names
+from mindrun.graph.weights import Weights
 from mindrun.kinds.registry import phrase
 from mindrun.terminal.command_line import command_line
 from networkx import DiGraph
 
 from mindlang.training.subject import Subject
-from mindlang.weights.network import SkillNetwork, trained_network
+from mindlang.weights.network import trained_network
 
 if TYPE_CHECKING:
     from mindrun.numbers.links import Links
@@ -21,24 +22,29 @@ BIAS = "1"  # the name of what is always 1
 THICKEST_LINE = 5.0  # of a picture, in points: that of the greatest weight
 
 
-def links_of(subject: Subject, skill: str) -> DiGraph:
-    """What a skill's outputs and neurons read: an edge with a `weight` for each link; MindError where it has none.
+def taught_links(subject: Subject, skill: str) -> DiGraph:
+    """The links of a skill of a file; MindError where it was not taught, or where its kind has none that grew."""
+    network, weights = trained_network(subject, skill)
+    if not network.skill.function.grows:
+        hint = f"Make one of an mlp: {command_line('mindc', 'edit', 'grow', subject.shown, skill)}"
+        raise WeightsError(f"{skill} is {phrase(network.skill.function)}: only a neat has links that grew", hint)
+    return links_of(subject.graph, network.skill, weights)
+
+
+def links_of(graph: Graph, skill: Skill, weights: Weights) -> DiGraph:
+    """What the outputs and neurons of a skill that grew read: an edge with a `weight` for each link.
 
     Nodes are names, with their `role`: bias, reading, neuron or output. Neurons from which no way leads to an output
     are left out.
     """
-    network, weights = trained_network(subject, skill)
-    function: Any = network.skill.function
-    if not function.grows:
-        hint = f"Make one of an mlp: {command_line('mindc', 'edit', 'grow', subject.shown, skill)}"
-        raise WeightsError(f"{skill} is {phrase(function)}: only a neat has links that grew", hint)
-    links: Links = function.network(weights, network.outputs)
+    function: Any = skill.function
+    links: Links = function.network(weights, skill.outputs)
     neurons = [f"neuron {number}" for number in range(1, links.most + 1)]
-    names = reading_names(subject.graph)
-    read = [*[BIAS] * links.bias, *(names[row] for row in network.skill.inputs), *neurons]
-    rows = [*neurons, *_sent(subject.graph, network)]
+    names = reading_names(graph)
+    read = [*[BIAS] * links.bias, *(names[row] for row in skill.inputs), *neurons]
+    rows = [*neurons, *_sent(graph, skill)]
     gone = {name for name, is_live in zip(neurons, links.live, strict=True) if not is_live}
-    found = DiGraph(name=skill, about=function.summary(weights, network.outputs), centred=bool(links.centred))
+    found = DiGraph(name=skill.name, about=function.summary(weights, skill.outputs), centred=bool(links.centred))
     for name in rows[links.most :]:
         found.add_node(name, role="output")
     for row, column in np.argwhere(links.cells):
@@ -51,9 +57,9 @@ def links_of(subject: Subject, skill: str) -> DiGraph:
     return found
 
 
-def _sent(graph: Graph, network: SkillNetwork) -> list[str]:
+def _sent(graph: Graph, skill: Skill) -> list[str]:
     """The names to which the outputs go, in their order; one that is read, too, is told apart."""
-    edges = sorted((edge.output, edge.to, edge.target) for edge in network.skill.edges if edge.output is not None)
+    edges = sorted((edge.output, edge.to, edge.target) for edge in skill.edges if edge.output is not None)
     names = [graph.named(to, target) for _, to, target in edges]
     return [f"{name} (driven)" if name in reading_names(graph) else name for name in names]
 

@@ -23,6 +23,7 @@ from tests.calling import Call
 from tests.edits.taught import MIND, statuses, teach, write_mind
 from tests.edits.test_weights import commands, made, some_readings
 from tests.server.test_changes import everywhere
+from tests.view.serving import simulated
 
 ROWS = np.random.default_rng(1).random((30, 3)).astype(np.float32)
 
@@ -90,6 +91,10 @@ def test_what_grew_is_shown(tmp_path: Path, mindc: Call) -> None:
         '"neuron 3" -> "left_wheel" [label="-4.00" penwidth=5.0 style=dashed]' in mindc("show", path, "Go", "--dot").out
     )
     assert "Avoid is mlp: only a neat has links that grew" in mindc("show", path, "Avoid").err
+    [paged] = simulated(path, "Roam").about["links"]
+    assert {(*(paged["nodes"][end]["name"] for end in ends), weight) for *ends, weight in paged["links"]} == {
+        (source, to, weight) for source, to, weight in drawn.edges(data="weight")
+    }
 
 
 def test_what_no_link_leads_from_is_told_and_taken_out(tmp_path: Path) -> None:

@@ -146,6 +146,29 @@ def test_an_actuator_says_which_paths_its_command_comes_from(opened: Opened) -> 
     assert command == float(str(opened.page.get_attribute("#chosen-text", "data-value")))
 
 
+def test_a_network_that_grew_is_drawn(browser: Any, mind: Path) -> None:
+    viewed = simulated(mind)
+    [name] = [node["name"] for node in viewed.about["nodes"] if node["master"]]
+    nodes = [
+        {"name": each, "role": role} for each, role in (("eye", "reading"), ("neuron 1", "neuron"), ("m", "output"))
+    ]
+    viewed.about = {
+        **viewed.about, "links": [{"skill": name, "nodes": nodes, "links": [[0, 1, 2.5], [1, 1, -1.0], [1, 2, 4.0]]}]
+    }  # fmt: skip
+    with served(viewed) as view:
+        found = Opened(browser, f"http://{view.host}/#{view.token}")
+        assert not found.page.is_visible("#links")
+        found.page.click("#hierarchy .node.master")
+        assert found.texts("#links .node text") == [each["name"] for each in nodes]
+        assert found.texts("#links .link.below title") == ["neuron 1 \u2192 neuron 1: -1"]
+        found.page.click("#links")
+        assert found.page.locator("#links.large").count() == 1
+        found.page.click("#links")
+        found.page.click("#hierarchy .node.actuator")
+        assert not found.page.is_visible("#links")
+        found.close()
+
+
 def test_a_value_that_is_changed_makes_a_run_beside_this_one(opened: Opened, mind: Path) -> None:
     graph = prepared(mind, "Chase").ready.policy.graph
     skill = next(skill.name for skill in graph.skills if skill.name != graph.master)

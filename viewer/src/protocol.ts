@@ -44,6 +44,13 @@ export interface Edge {
   over: number[]; // the nodes for which alone it counts; none where for all
 }
 
+/** The network of a skill whose links are learnt, too: what each of its nodes reads. */
+export interface Grown {
+  skill: string;
+  nodes: { name: string; role: "bias" | "reading" | "neuron" | "output" }[];
+  links: [from: number, to: number, weight: number][];
+}
+
 export interface Curve {
   name: string;
   group: "reading" | "influence" | "command" | "reward" | "world";
@@ -105,6 +112,7 @@ export interface About {
   nodes: Node[];
   edges: Edge[];
   reads: [from: number, to: number][];
+  links: Grown[];
   events: { text: string; kind: string }[];
   rewards: string[];
   ends: string[];

@@ -3,6 +3,7 @@
 import { described, type Selected } from "./description";
 import type { Edit } from "./edit";
 import { element } from "./elements";
+import type { Links } from "./links";
 import type { About } from "./protocol";
 import type { Row } from "./rows";
 import type { Why } from "./why";
@@ -19,6 +20,7 @@ export class Selection {
     private readonly about: About,
     private readonly why: Why,
     private readonly edit: Edit,
+    private readonly links: Links,
     private readonly row: () => Row | undefined,
   ) {}
 
@@ -26,6 +28,7 @@ export class Selection {
   show(): void {
     this.describe("chosen-text", this.selected);
     this.describe("tip", this.over);
+    this.links.choose(this.selected?.kind === "node" ? this.selected.number : null);
   }
 
   choose(selected: Selected): void {
@@ -33,6 +36,7 @@ export class Selection {
     const node = selected?.kind === "node" ? selected.number : null;
     this.why.choose(node);
     this.edit.choose(node, this.row());
+    this.links.choose(node);
     this.describe("chosen-text", selected);
     if (!selected) element("chosen-text").textContent = this.nothing;
   }

@@ -13,6 +13,7 @@ import { Hierarchy } from "./hierarchy";
 import { helpRows, listen } from "./keys";
 import { keysOf } from "./key_table";
 import { Learning } from "./learning";
+import { Links } from "./links";
 import { shown } from "./names";
 import { refusal } from "./notice";
 import { Orders } from "./orders";
@@ -81,7 +82,7 @@ export class View {
     this.timeline = new Timeline(element<HTMLCanvasElement>("timeline"), element("hint"), about, theme(), this.happened, this.stops, jump);
     this.why = new Why(element("why"), about, send);
     this.edit = new Edit(element("edit"), about, send, () => this.playback.tick);
-    this.selection = new Selection(about, this.why, this.edit, () => this.row);
+    this.selection = new Selection(about, this.why, this.edit, new Links(svgElement("links"), about), () => this.row);
     this.orders = new Orders(element("orders"), about, send);
     new Drive(about, send, this.left.signal);
     this.forks = new Forks(element<HTMLSelectElement>("forks"), about, send, () => this.beside());
