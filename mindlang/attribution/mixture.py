@@ -237,7 +237,7 @@ def _features(graph: Graph, drive: Drive, rows: "np.ndarray[tuple[int], np.dtype
     around = directions({sensor.name: sensor.kind for sensor in graph.sensors})
     found = {}
     for sensor in graph.sensors:
-        read = drive.readings[rows, sensor.start : sensor.start + sensor.width].astype(float)
+        read = drive.readings[rows, sensor.place].astype(float)
         if np.isfinite(read).all():
             turned = 2 * np.pi * read
             parts = [np.sin(turned), np.cos(turned)] if sensor.name in around else [read, read * read]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from mindrun.graph.draws import Draw
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.measured import measured_in_world, measured_on_robot
-from mindrun.graph.named_readings import physical
+from mindrun.graph.named_readings import named_places, physical
 from mindrun.kinds.registry import names as kind_names
 
 from mindlang.compiler import lower, model
@@ -63,8 +63,7 @@ class BreakpointSubject:
     @cached_property
     def places(self) -> lower.Places:
         """The places of the readings and the commands in a row, and of the numbers that are drawn for the run."""
-        readings = {each.name: (each.start, each.width) for each in self.graph.sensors}
-        readings |= {each.name: (each.start, each.kind.width) for each in self.graph.memories}
+        readings = {name: (rows.start, len(rows)) for name, rows in named_places(self.graph).items()}
         actuators = {each.name: place for place, each in enumerate(self.graph.actuators)}
         return lower.Places(readings, actuators, draws={draw: place for place, draw in enumerate(self.draws.values())})
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 from itertools import accumulate
 
 from mindrun.graph.graph import Edge, Graph, Skill
+from mindrun.graph.named_readings import named_places
 from mindrun.kinds.registry import arguments, later_fields, names
 from networkx import DiGraph, lexicographical_topological_sort
 
@@ -15,8 +16,7 @@ MAX_WIDTH_DIGITS = 9  # of how many readings a sensor has, where a text from out
 
 def signature(graph: Graph, skill: Skill) -> Signature:
     """The signature of a skill that learns; of its function every argument is said: mlp hidden 2 width 14."""
-    at = {sensor.start: (sensor.name, sensor.width) for sensor in graph.sensors}
-    at |= {memory.start: (memory.name, memory.kind.width) for memory in graph.memories}
+    at = {rows.start: (name, len(rows)) for name, rows in named_places(graph).items()}
     read = (at[index] for index in skill.inputs if index in at)
     sends = (graph.named(edge.to, edge.target) for edge in skill.edges if edge.output is not None)
     function = skill.function.explicit(len(skill.inputs), skill.outputs)
@@ -116,8 +116,7 @@ def _as_taught(graph: Graph, skill: Skill, lock: Lock) -> Skill:
     taught = entry.signature
     if sorted(own.reads) != sorted(taught.reads) or sorted(own.sends) != sorted(taught.sends):
         return skill
-    places = {s.name: range(s.start, s.start + s.width) for s in graph.sensors}
-    places |= {m.name: range(m.start, m.start + m.kind.width) for m in graph.memories if m.name not in places}
+    places = named_places(graph)
     inputs = tuple(index for read in taught.reads for index in places[read.partition(":")[0]])
     learned = {graph.named(edge.to, edge.target): edge for edge in skill.edges if edge.output is not None}
     edges = [replace(learned[name], output=number) for number, name in enumerate(taught.sends)]

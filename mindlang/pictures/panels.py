@@ -223,7 +223,7 @@ class ReadingsPanel:
     def draw(self, canvas: Canvas, tick: int) -> None:
         """Draw the readings in a tick, the first of which is 1."""
         for sensor, cell in zip(self._sensors, self._cells, strict=False):
-            values = self._run.readings[tick - 1, sensor.start : sensor.start + sensor.width].astype(float)
+            values = self._run.readings[tick - 1, sensor.place].astype(float)
             left, right = cell.left + NAME_SHARE * cell.width, cell.left + cell.width
             if len(values) == 1:
                 self._number(canvas, float(values[0]), left, right - NUMBER_SHARE * cell.width, right, cell.low)

@@ -212,8 +212,7 @@ def _commanded(run: RecordedRun, tick: int) -> Iterator[tuple[ActuatorKind, floa
 def _sensed(run: RecordedRun, tick: int) -> Iterator[tuple[SensorKind, Floats]]:
     """Each sensor and what it reads in a tick; as the run begins, nothing yet."""
     for sensor in run.graph.sensors:
-        here = slice(sensor.start, sensor.start + sensor.width)
-        yield sensor.kind, run.readings[tick - 1, here].astype(float) if tick else np.zeros(sensor.width)
+        yield sensor.kind, run.readings[tick - 1, sensor.place].astype(float) if tick else np.zeros(sensor.width)
 
 
 def _wheels(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:

@@ -8,6 +8,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from mindrun.graph.graph import Graph
+from mindrun.graph.named_readings import named_places
 from mindrun.numbers.arrays import Singles
 from mindrun.terminal.tick_count import ticks as in_words
 from rich.console import Group, RenderableType
@@ -113,9 +114,7 @@ def _example(graph: Graph, tried: Tried) -> Data | None:
 
 def readings_by_name(graph: Graph, readings: Singles) -> dict[str, list[float]]:
     """Readings [graph.width] by sensor and memory."""
-    values = readings.tolist()
-    found = {sensor.name: values[sensor.place] for sensor in graph.sensors}
-    return found | {memory.name: values[memory.start : memory.start + memory.kind.width] for memory in graph.memories}
+    return {name: readings[rows].tolist() for name, rows in named_places(graph).items()}
 
 
 def _edge(edge: EdgeClaim, hashes: Hashes) -> Data:

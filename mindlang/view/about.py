@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Graph, Skill, Task
-from mindrun.graph.named_readings import reading_names, servo_reading
+from mindrun.graph.named_readings import named_places, reading_names, servo_reading
 from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import About
 from mindrun.kinds.registry import names
@@ -74,13 +74,11 @@ def _nodes(graph: Graph, skills: Sequence[Skill], by_hand: Sequence[str]) -> dic
     An actuator that is `by_hand` has the command that it was sent, and every other that of the mind.
     """
     found: dict[tuple[str, int], PlacedNode] = {}
+    at = named_places(graph)
     for place, sensor in enumerate(graph.sensors):
-        places = range(sensor.start, sensor.start + sensor.width)
-        found["sensor", place] = PlacedNode(sensor.name, sensor.kind, "readings", places)
+        found["sensor", place] = PlacedNode(sensor.name, sensor.kind, "readings", at[sensor.name])
     for place, cell in enumerate(graph.memories):
-        found["memory", place] = PlacedNode(
-            cell.name, cell.kind, "readings", range(cell.start, cell.start + cell.kind.width)
-        )
+        found["memory", place] = PlacedNode(cell.name, cell.kind, "readings", at[cell.name])
     for place, skill in enumerate(graph.skills):
         if skill in skills:
             found["skill", place] = PlacedNode(skill.name, skill.function, "influence", [place])

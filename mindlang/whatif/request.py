@@ -149,9 +149,8 @@ def recorded_readings(
             f"a tick of {path} is {about.tick:g} s, and one of this run {graph.tick:g} s",
             "take a recording of a mind with the same tick",
         )
-    columns = slice(sensor.start, sensor.start + sensor.width)
     nothing = np.zeros((0, sensor.width), np.float32)  # a recording may have no row
-    rows = np.concatenate([nothing, *(part["readings"][:, columns] for part in parts)])
+    rows = np.concatenate([nothing, *(part["readings"][:, sensor.place] for part in parts)])
     if len(rows) < first:
         raise ChangeError(f"{path} has {in_words(len(rows))}: there is no tick {first:,}", "say an earlier one")
     end = len(rows) if last is None else min(last, len(rows))

@@ -1,9 +1,9 @@
 """`mindc edit grow`."""
 
+from mindrun.kinds.functions.neat import MOST_NEURONS
+
 from mindlang.editing.insertion import replace_span
 from mindlang.editing.project import EditError, MindChange, Project, kind_of
-
-MOST_NEURONS = 100  # of a network that grows
 
 
 def grow(project: Project, skill: str) -> MindChange:

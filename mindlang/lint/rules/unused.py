@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
+from mindrun.graph.named_readings import named_places
 from networkx import DiGraph
 
 from mindlang.compiler.hierarchy import with_descendants
@@ -98,8 +99,7 @@ def unused_reading(study: Study) -> Found:
 def _unlinked(study: Study) -> Found:
     """What a skill reads whose network was taught, and no link leads from."""
     graph, states = arrange(study.graph, study.lock), status(study.graph, study.lock)
-    places = {each.name: range(each.start, each.start + each.width) for each in graph.sensors}
-    places |= {each.name: range(each.start, each.start + each.kind.width) for each in graph.memories}
+    places = named_places(graph)
     for skill in (each for each in graph.skills if each.function.grows and not each.like):
         state, unread = states[skill.name], set[int]()
         if isinstance(state, Trained):

@@ -9,6 +9,7 @@ from mindrun.engine.think import Thought, hierarchy, think
 from mindrun.errors import MindError, ReadingsError
 from mindrun.graph.graph import Graph
 from mindrun.graph.measured import with_sources
+from mindrun.graph.named_readings import named_places
 from mindrun.graph.policy import Policy
 from mindrun.graph.procedure_source import source_of
 from mindrun.graph.weights import reachable
@@ -35,8 +36,7 @@ def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> 
 
 def scene_of(graph: Graph) -> Scene:
     """The scene of a graph's sensors: all that they depend on beside their own arguments."""
-    places = {memory.name: slice(memory.start, memory.start + memory.kind.width) for memory in graph.memories}
-    places |= {sensor.name: sensor.place for sensor in graph.sensors}
+    places = {name: slice(rows.start, rows.stop) for name, rows in named_places(graph).items()}
     sensors = {sensor.name: sensor.kind for sensor in graph.sensors}
     kinds = sensors | {memory.name: memory.kind for memory in graph.memories}
     return Scene(graph.tick, places, directions(sensors), graph.skill_numbers, kinds)

@@ -24,6 +24,12 @@ def reading_names(graph: Graph) -> list[str]:
     return [f"{name} {number + 1}" if name in several else name for name, number in graph.readings]
 
 
+def named_places(graph: Graph) -> dict[str, range]:
+    """The rows of the readings of each sensor and each memory."""
+    found = {sensor.name: range(sensor.start, sensor.start + sensor.width) for sensor in graph.sensors}
+    return found | {each.name: range(each.start, each.start + each.kind.width) for each in graph.memories}
+
+
 def kept_rows(graph: Graph) -> dict[str, int]:
     """The place of each number that memories keep in the vector of readings, by the name of that reading."""
     sensed = graph.width - sum(memory.kind.kept for memory in graph.memories)

@@ -167,7 +167,7 @@ class ReadingFilter:
         for state in self._states:
             fault, age, reason = _assess(state, time)
             values = _answer(state, fault, time)
-            readings[state.sensor.start : state.sensor.start + state.sensor.width] = nan if values is None else values
+            readings[state.sensor.place] = nan if values is None else values
             faults.append(fault)
             ages.append(age)
             must_stop |= values is None

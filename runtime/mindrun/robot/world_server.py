@@ -69,7 +69,7 @@ class SimulatedScene:
         self.commands = {actuator.name: float(actuator.kind.neutral) for actuator in world.graph.actuators}
         self.memories: dict[str, float] = {}
         self._cells = kept_rows(world.graph).keys()
-        self._places = {s.name: slice(s.start, s.start + s.width) for s in world.graph.sensors}
+        self._places = {s.name: s.place for s in world.graph.sensors}
         self._readings = world.readings().astype("<f8")
 
     def tick(self) -> None:

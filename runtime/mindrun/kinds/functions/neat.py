@@ -21,7 +21,8 @@ if TYPE_CHECKING:  # a lane is given its terms when it is compiled
     from mindrun.numbers.links import Links
     from mindrun.numbers.network import Terms
 
-Most = Annotated[int, Quantity("a whole number", {"": 1.0}, low=0, high=100, whole=True)]
+MOST_NEURONS = 100
+Most = Annotated[int, Quantity("a whole number", {"": 1.0}, low=0, high=MOST_NEURONS, whole=True)]
 Reach = Literal["any", "forward"]
 
 
