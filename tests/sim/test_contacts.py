@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from mindrun.sim.lanes.meeting import meet
 from mindrun.sim.lanes.solids import put_corners, put_shape, turn
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.state import FIRST_LOOSE, FIXED, ContactState
+from mindrun.sim.state import FIXED, HELD, ContactState
 
 from tests.sim.plain_loose import corners
 from tests.sim.test_loose import world
@@ -45,6 +45,7 @@ class Shape:
         """As solid `a` of the first lane."""
         solid = contact.solids[0, a]
         solid.is_round, solid.radius, solid.number, solid.cosine = self.is_round, self.half, a, 1.0
+        solid.body, solid.robot = a, -1
         put_corners(solid.own_corners, -self.half, -self.half, self.half, self.half)
         turn(rollout.tables, solid, self.angle)
         solid.middle_x, solid.middle_y = self.x, self.y
@@ -71,7 +72,7 @@ def loose_world() -> Rollout:
 def test_two_shapes_meet_where_chipmunk_says(one: Shape, other: Shape) -> None:
     rollout = loose_world()
     contact = rollout.tile(1).state.contact
-    a, b = FIRST_LOOSE, FIXED if other.is_fixed else FIRST_LOOSE + 1
+    a, b = HELD + 1, FIXED if other.is_fixed else HELD + 2  # both loose
     one.write(rollout, contact, a)
     other.write(rollout, contact, b)
     meet(contact, a, b, b, 0)

@@ -13,7 +13,7 @@ from mindrun.numbers.arrays import Array
 from mindrun.sim.arrays import Block, table
 
 PUSH, STEERING, GRIPPER, IDLE, SERVO = range(5)
-ITEM, ZONE, POWER, BOX, BALL, WALKER = range(6)
+ITEM, ZONE, POWER, BOX, BALL, WALKER, OTHER_ROBOT = range(7)
 STAYS, MOVES, VANISHES = range(3)
 PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE, ITS_REWARD, APART, DRAWN_NUMBER, TALLIED, TIME = range(10)
 REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION, SUCCESS, ITS_END, LEAVE = range(8)
@@ -33,7 +33,9 @@ ACTUATOR_CODES = {
     "wheel": PUSH, "motor": PUSH, "thruster": PUSH, "steering": STEERING, "gripper": GRIPPER,
     "servo": SERVO, "lamp": IDLE, "action": IDLE, "choice": IDLE,
 }  # fmt: skip
-THING_CODES = {"item": ITEM, "zone": ZONE, "power": POWER, "box": BOX, "ball": BALL, "walker": WALKER}
+THING_CODES = {
+    "item": ITEM, "zone": ZONE, "power": POWER, "box": BOX, "ball": BALL, "walker": WALKER, "robot": OTHER_ROBOT,
+}  # fmt: skip
 MEASURE_CODES = {
     "progress": PROGRESS, "advance": ADVANCE, "retreat": RETREAT, "forward": FORWARD, "change": CHANGE,
     "its reward": ITS_REWARD, "distance": APART, "time": TIME,
@@ -93,10 +95,11 @@ PARAMETER = _columns(i8="form of", f8="low high")
 MEMORY = _columns(i8="row kept left right compass", u8="lane", f8="left_way right_way", f4="decay rest start")
 THING = _columns(
     i8="kind drawn is_round is_fixed reached delivered is_reached is_delivered is_area loose settles walker is_goal "
-    "turn copy copies option options is_within inside insides x_row y_row",
+    "number copy copies option options is_within inside insides x_row y_row",
     f8="first last by low high hold x y left right below above",
 )
-LOOSE = _columns(i8="thing is_round density friction slower number turn step thrust after afters aim", f8="range")
+LOOSE = _columns(i8="thing is_round density friction slower number step thrust after afters aim", f8="range")
+MATE = _columns(i8="thing")
 WALKING = _columns(i8="thing way ways copy is_anywhere is_drawn step turn after afters aim", f8="range")
 WAY = _columns(i8="first places")
 CORNER = _columns(i8="next x_row y_row", f8="x y")
@@ -110,13 +113,14 @@ TALLY = _columns(i8="event when whens code length longest row")
 REWARD = _columns(i8="code length on each eachs when whens last")
 WORLD = _columns(
     i8="linear angular friction mass moment mass_inv moment_inv is_round is_placed is_faced ticks rays master battery "
-    "number turn",
+    "number robots items hash_size",
     f8="dt radius front side arm least slop cell axles half_x half_y start_x start_y facing start drain charge near "
     "claw",
 )
 
 # What is solid: its sides, where it is, how it is turned, for which size it has been made, how much it weighs, half of
-# its least side. Of a circle the first corner is its middle. `bias` is the velocity that parts what overlaps.
+# its least side. Of a circle the first corner is its middle. `bias` is the velocity that parts what overlaps. It moves
+# with the solid `body`, and is of a `robot`, by its number, or of none, −1.
 POINT, MOTION = _columns(f8="x y"), _columns(f8="x y spin")
 SOLID = _columns(
     ("velocity", MOTION),
@@ -126,7 +130,7 @@ SOLID = _columns(
     ("begin", POINT),  # where it was as the tick began, before this step and after it (lanes/solid)
     ("before", POINT),
     ("after", POINT),
-    i8="is_round is_asleep number",
+    i8="is_round is_asleep number body robot",
     f8="left right low high middle_x middle_y turned cosine sine radius made friction mass_inv moment_inv half "
     "before_angle",
 )
@@ -134,16 +138,16 @@ SOLID = _columns(
 # how fast to part them, and the impulse that does.
 CONTACT = _columns(u8="hash", f8="x y its_x its_y along across mass_along mass_across bias parting")
 # What touches, or did a few steps ago: what it is of, the step that it touched in last, the solids whose motion counts,
-# what the hash has found and where, the thing in the claw that it is of, or −1, and its radius.
+# what the hash has found and where, the things in claws that both are, or −1, and the radius of what is.
 PAIR = _columns(
     ("contacts", CONTACT, 2),
-    i8="key used is_first own other found rank thing count",
+    i8="key used is_first own other found rank thing its_thing count",
     f8="normal_x normal_y friction reach",
 )
-# The steps of a lane: how long the last one was, or 0, which share of an overlap one so long takes back, and how many
-# there were; the pairs, those that touch, and those of the robot with what never moves; the thing in the claw, or −1;
-# how many solids are awake.
-SPACE = _columns(i8="steps pairs touching run_into in_claw awake", f8="seconds take_back")
+# The steps of a world: how long the last one was, or 0, which share of an overlap one so long takes back, and how many
+# there were; the pairs, and those that touch; how many solids are awake. And of each robot, in its own lane: the pairs
+# of it with what never moves, the robots that it touches, a bit for each, and the thing in its claw, or −1.
+SPACE = _columns(i8="steps pairs touching awake run_into met in_claw", f8="seconds take_back")
 
 
 F4, F8, I8, U8 = np.float32, np.float64, np.int64, np.uint64
@@ -171,6 +175,7 @@ class Tables(Block):
     parameters: Array = table(PARAMETER)
     things: Array = table(THING)
     loose: Array = table(LOOSE)
+    mates: Array = table(MATE)  # the robots of a world but the first, which is none of its things
     walkers: Array = table(WALKING)
     ways: Array = table(WAY)  # that walkers go along
     corners: Array = table(CORNER)  # the places of ways

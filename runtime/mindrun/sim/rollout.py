@@ -138,18 +138,23 @@ class Rollout:
             unit.load()
 
     def tile(self, lanes: int) -> Tile:
-        """A tile with room for so many lanes."""
+        """A tile with room for so many worlds, of as many lanes as robots each."""
+        lanes *= int(self.tables.world[0]["robots"])
         return Tile(empty_state(self.tables, self.sizes, lanes), Memories(self.procedures))
 
     def _run(self, jobs: Jobs, share: Integers, stop: Event, ran: Callable[[float], None]) -> Jobs:
         lines, events = jobs.lines.shape[1], jobs.counts.shape[1]
         mine = unbegun(jobs.genomes, jobs.seeds, jobs.most, jobs.genome[share], jobs.seed[share], lines, events)
-        tile = self.tile(lanes_for(len(share), self.lanes))
+        robots = int(self.tables.world[0]["robots"])
+        tile = self.tile(lanes_for(len(share), max(1, self.lanes // robots)))
         self.fill(tile, mine)
         told, working = 0.0, 1
         while working and not stop.is_set():
             working = self.advance(tile, mine, self.slice_ticks)
-            done = int(mine.next[0]) - working + float(tile.state.world.tick[:working].sum()) / int(mine.most[0])
+            done = (
+                int(mine.next[0])
+                - (working - float(tile.state.world.tick[:working].sum()) / int(mine.most[0])) / robots
+            )
             ran(done - told)
             told = done
         return mine

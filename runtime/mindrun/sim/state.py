@@ -19,8 +19,8 @@ from mindrun.sim.codes import AWAY, PAIR, PUSH_ROWS, SOLID, SPACE, WALL_COUNT, T
 Part = TypeVar("Part", bound=Block)
 PLACE_ROWS = 2  # x and y
 FAILED_SKILL, FAILED_COLUMN = range(2)  # of `failed`
-# What is solid: a box or wall that never moves, the robot, what it holds, then what is loose.
-FIXED, ROBOT, HELD, FIRST_LOOSE = range(4)
+# What is solid: a box or wall that never moves, the robot, what it holds, the same of each other robot, what is loose.
+FIXED, ROBOT, HELD, ROBOT_SOLIDS = 0, 1, 2, 2
 MOST_PAIRS, PAIRS_EACH, SPARE_PAIRS = 64, 16, 16  # in a lane, more for each loose thing, and for what is let go
 F4, F8, I8, U1, U8 = np.float32, np.float64, np.int64, np.uint8, np.uint64
 
@@ -110,6 +110,7 @@ class ContactState(Block):
 
     near: Array = each()  # ticks for which a lane is still made like that
     touching: Array = each()  # bit 0 while something touches, bit 1 if something did in the tick before
+    mates: Array = rows(2, kind=I8)  # which robots touch, a bit for each, now and in the tick before
     space: Array = each(SPACE)  # its steps
     solids: Array = columns("solids", kind=SOLID)  # all that moves, and room for one that does not
     pairs: Array = columns("pairs", kind=PAIR)  # what touches, or did a few steps ago
@@ -178,7 +179,7 @@ Senses = make_dataclass(
 
 @dataclass(frozen=True)
 class State(Block):
-    """Everything that changes; a lane is one world with one robot in it."""
+    """Everything that changes; a lane is one robot in its world, of which the first lane has the things."""
 
     world: WorldState
     sight: SightState
@@ -256,7 +257,7 @@ def _empty(part: type[Part], n: Mapping[str, int], lanes: int, **known: Array) -
 def _counts(tables: Tables, sizes: Mapping[str, int]) -> dict[str, int]:
     """The numbers that arrays say their rows or columns by: lengths of tables, Sizes, and sums of these."""
     n = {name: len(getattr(tables, name)) for name in tables.layout()} | dict(sizes)
-    movers, fixed = 2 + n["loose"], n["boxes"] + WALL_COUNT
+    movers, fixed = ROBOT_SOLIDS * (1 + n["mates"]) + n["loose"], n["boxes"] + WALL_COUNT
     return n | {
         "sinks": n["actuators"] + n["memories"],
         "sight": FIRST_RAY + n["ray_row"],
@@ -264,6 +265,6 @@ def _counts(tables: Tables, sizes: Mapping[str, int]) -> dict[str, int]:
         "happened": max(1, n["events"]),
         "windows": sum(1 for event in tables.events if event["after"] >= 0),
         "close": fixed,
-        "solids": FIRST_LOOSE + n["loose"],
-        "pairs": min(MOST_PAIRS + PAIRS_EACH * n["loose"], movers * (movers + fixed) + SPARE_PAIRS),
+        "solids": ROBOT + movers,
+        "pairs": min(MOST_PAIRS + PAIRS_EACH * (n["loose"] + n["mates"]), movers * (movers + fixed) + SPARE_PAIRS),
     }

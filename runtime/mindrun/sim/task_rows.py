@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from itertools import accumulate, count
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.things.thing import OUTCOMES, STAYS, ThingKind
 from mindrun.kinds.things.walker import ANYWHERE
 from mindrun.numbers.arrays import Array
+from mindrun.numbers.quantity import Span
 from mindrun.sim import codes
 from mindrun.sim.codes import DAMPING, HALF_DIAGONAL, INVERSE, OVER, TIMES, WALL_COUNT, Row, records, span
 from mindrun.sim.mind_rows import Programs
@@ -62,19 +63,33 @@ def opened_boxes(task: Task) -> set[int]:
     return {box for end in task.ends if end.opens for box in boxes[end.opens]}
 
 
-def hash_numbers(task: Task) -> tuple[int, list[int], list[int]]:
-    """The numbers that Chipmunk would give to the shapes of the robot and of each thing, and their places in its hash.
+def robot_rows(task: Task) -> list[int]:
+    """The rows of `things_of` that are robots: the second robot of the world, the third …"""
+    return [row for row, thing in enumerate(things_of(task)) if thing.kind.is_robot]
 
-    Shapes are numbered as they are added: boxes, walls, the robot, what can be held, what is loose. The hash has them
-    in the order of their places.
+
+class HashNumbers(NamedTuple):
+    """The numbers that Chipmunk would give to shapes, in the order in which they are added: boxes, walls, the robots,
+    what the first may hold, what the next may …, what is loose.
+
+    That of what a robot holds is by `items` more than that of the robot before it. The hash has shapes in the order of
+    these numbers modulo its `size`.
     """
-    things = [thing.kind for thing in things_of(task)]
+
+    robot: int  # of the first one
+    things: Sequence[int]
+    items: int
+    size: int
+
+
+def hash_numbers(task: Task) -> HashNumbers:
+    things, robots = [thing.kind for thing in things_of(task)], 1 + len(robot_rows(task))
     robot = sum(each.kind.obstacles(task.scene) for each in task.things) + WALL_COUNT * task.scene.is_bounded
-    held = [*accumulate((kind.can_be_held for kind in things), initial=robot)]
-    loose = [*accumulate((kind.is_loose for kind in things), initial=held[-1])]
+    items = sum(kind.can_be_held for kind in things)
+    held = [*accumulate((kind.can_be_held for kind in things), initial=robot + robots - 1)]
+    loose = [*accumulate((kind.is_loose for kind in things), initial=robot + robots - 1 + robots * items)]
     numbers = [b if kind.is_loose else a for kind, a, b in zip(things, held[1:], loose[1:], strict=True)]
-    size = next(prime for prime in HASH_SIZES if prime > 1 + loose[-1] - robot)
-    return robot, numbers, [number % size for number in (robot, *numbers)]
+    return HashNumbers(robot, numbers, items, next(prime for prime in HASH_SIZES if prime > 1 + loose[-1] - robot))
 
 
 def content_rows(graph: Graph, task: Task, parameters: Parameters, programs: Programs) -> dict[str, Array]:
@@ -84,6 +99,7 @@ def content_rows(graph: Graph, task: Task, parameters: Parameters, programs: Pro
         "obstacles": obstacle_rows(task, parameters, programs),
         "presences": presence_rows(task, programs),
         **walker_rows(task, graph.tick, parameters, programs),
+        "mates": records([{"thing": row} for row in robot_rows(task)], codes.MATE),
     }
 
 
@@ -96,22 +112,25 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
     loose, walkers, zones = count(), count(), [thing.kind for thing in task.things if thing.kind.takes_items]
     zones_stay = all(outcome == STAYS for zone in zones for outcome in zone.outcomes.values())
     first = {name: found.start for name, found in rows_by_name(task).items()}
-    _, _, turns = hash_numbers(task)
+    numbers = hash_numbers(task).things
     for number, thing in enumerate(things_of(task)):
         kind, size, copy = thing.kind, thing.kind.size, number - first[thing.name]
         low, high = kind.distances(task.scene)
         x, y = kind.places[copy] if kind.places else (0.0, 0.0)
         is_drawn = bool(kind.options) or (kind.walks and not kind.wanders)
         own = _drawn_places(thing, parameters, programs)[:1] if not kind.ways else []
+        if kind.is_robot:
+            size = Span(2 * graph.body.radius, 2 * graph.body.radius)
         if kind.is_loose:  # not in the robot
             low = max(low, graph.body.radius + kind.largest * HALF_DIAGONAL)
         row: dict[str, float] = {
             "kind": codes.THING_CODES[names()[type(kind)]], "first": size.first, "last": size.last,
             "by": size.by or 0.0, "drawn": size.by is None and size.first != size.last, "low": low, "high": high,
             "hold": graph.body.front + kind.largest / 2, "is_fixed": bool(kind.places) or is_drawn, "x": x, "y": y,
-            "is_round": kind.is_round, "is_area": kind.is_area, "is_goal": thing.name in never,
+            "is_round": kind.is_round and not (kind.is_robot and graph.body.outline),
+            "is_area": kind.is_area, "is_goal": thing.name in never,
             "loose": next(loose) if kind.is_loose else -1, "settles": kind.is_loose and zones_stay,
-            "walker": next(walkers) if kind.walks else -1, "turn": turns[1 + number],
+            "walker": next(walkers) if kind.walks else -1, "number": numbers[number],
             "copy": copy, "copies": kind.copies, "option": options, "options": 0 if own else len(kind.options),
             **_region(kind, rows_by_name(task)), **(own[0] if own else EVERY_RUN),
         }  # fmt: skip
@@ -175,13 +194,13 @@ def obstacle_rows(task: Task, parameters: Parameters, programs: Programs) -> Arr
 def loose_rows(task: Task, dt: float, parameters: Parameters) -> Array:
     """Rows of LOOSE: what can be pushed, in the order of the things that they are rows of."""
     rows: list[Row] = []
-    _, numbers, turns = hash_numbers(task)
+    numbers = hash_numbers(task).things
     places = rows_by_name(task)
     for i, thing in enumerate(things_of(task)):
         kind: Any = thing.kind
         if kind.is_loose:
             rows.append({
-                "thing": i, "is_round": kind.is_round, "number": numbers[i], "turn": turns[1 + i],
+                "thing": i, "is_round": kind.is_round, "number": numbers[i],
                 "density": parameters.row("thing", thing.name, "density", kind.density),
                 "friction": parameters.row("thing", thing.name, "friction", kind.friction),
                 "slower": parameters.row("thing", thing.name, "damping", kind.damping, (DAMPING, dt)),
@@ -326,7 +345,7 @@ def world_row(
 ) -> Array:
     """The numbers of the body, the battery and the scene."""
     body, scene, begin = graph.body, task.scene, task.start
-    number, _, turns = hash_numbers(task)
+    numbers = hash_numbers(task)
     start_x, start_y = begin.at or (0.0, 0.0)
     half_x, half_y = (side / 2 for side in scene.sides)
     battery = next((s.kind.battery for s in graph.sensors if s.kind.battery), Battery())
@@ -341,7 +360,8 @@ def world_row(
         "is_faced": begin.facing is not None, "facing": begin.facing or 0.0, "ticks": task.ticks,
         "start": battery.start if powered else np.nan, "drain": battery.drain, "charge": battery.charge, "rays": rays,
         "near": near, "master": graph.skill_numbers[master], "claw": graph.claw_reach, "battery": powered,
-        "number": number, "turn": turns[0],
+        "number": numbers.robot, "items": numbers.items, "hash_size": numbers.size,
+        "robots": 1 + len(robot_rows(task)),
     }  # fmt: skip
     return records([row], codes.WORLD)
 

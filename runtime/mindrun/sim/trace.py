@@ -20,7 +20,7 @@ from mindrun.sim.codes import Tables
 from mindrun.sim.lanes.advance import before
 from mindrun.sim.procedures import Memories
 from mindrun.sim.rollout import Rollout, Tile
-from mindrun.sim.state import FIRST_LOOSE, FIXED, ROBOT, Jobs, State, empty_state, recorded
+from mindrun.sim.state import FIXED, ROBOT, ROBOT_SOLIDS, Jobs, State, empty_state, recorded
 
 Advance = Callable[[Tile, Jobs, int], int]
 CHUNK_TICKS, CHUNK_BYTES = 256, 1 << 22  # of a run at once, or fewer where a tick is large
@@ -168,7 +168,7 @@ def last_touch(rollout: Rollout, state: State) -> Touch | None:
     points = pair["contacts"][: pair["count"]]
     x, y = (points[name].mean() for name in (("x", "y") if pair["own"] == ROBOT else ("its_x", "its_y")))
     ahead, aside = heading[COSINE] * x + heading[SINE] * y, heading[COSINE] * y - heading[SINE] * x
-    box = pair["found"] - FIRST_LOOSE - len(rollout.tables.loose)
+    box = pair["found"] - ROBOT - ROBOT_SOLIDS * int(rollout.tables.world[0]["robots"]) - len(rollout.tables.loose)
     return Touch(float(ahead), float(aside), int(box), int(pair["thing"]))
 
 

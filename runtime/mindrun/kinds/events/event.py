@@ -96,12 +96,18 @@ class EventKind(AboutThing):
 
 @kind("event", "collision")
 class Collision(EventKind):
-    """The body, or the item it holds, begins to touch an obstacle or a wall; to push a box or ball is no collision."""
+    """The body, or the item it holds, begins to touch an obstacle or a wall; to push a box or ball is no collision.
+
+    With `with` it begins to touch a robot of that name, or what that holds, once for each.
+    """
+
+    with_: ThingName = left_out("")
 
     is_mishap = True
+    is_about = staticmethod(lambda kind: kind.is_robot)
 
     def prevented(self, world: WorldFacts) -> Hindrance | None:
-        if world.has_fixed:
+        if world.has_fixed or self.with_:
             return None
         hint = "Write in arena size 100, or add contains rock is obstacle count 10."
         return Hindrance("there is nothing to collide with", hint)

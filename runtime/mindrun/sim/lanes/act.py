@@ -6,8 +6,9 @@ from mindrun.kinds.memory import UNDRIVEN_COMMAND
 from mindrun.numbers.arithmetic import *
 from mindrun.sim.codes import GRIPPER, ITEM, SERVO, Tables
 from mindrun.sim.kind_lanes import remember
-from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred, is_blocked, is_walled
-from mindrun.sim.state import State
+from mindrun.sim.lanes.placement import OF_SEVERAL
+from mindrun.sim.lanes.solid import CLOSED_UNITS, comes_nearer, is_barred, is_blocked, is_walled
+from mindrun.sim.state import State, WorldState
 from mindrun.sim.units import unit, unit_where
 
 STANDING_UNITS = 1e-3  # a second: what rolls more slowly stands still
@@ -110,17 +111,37 @@ def turn(tables: Tables, state: State, i: int, lanes: int) -> None:
 
 @unit_where(lambda tables: (tables.actuators["kind"] == GRIPPER).any())
 def grip(tables: Tables, state: State, i: int, lanes: int) -> None:
-    """Close above 0.5 on the first item in reach that can come into the claw; open and the item stays where it is."""
-    world, actuator, kinds, commands = state.world, tables.actuators[i], tables.things, state.world.acting[i]
-    held, body, heading, things, front = world.held, world.body, world.heading, world.things, tables.world[0].front
+    """Close above 0.5 on the first item in reach that can come into the claw; open and the item stays where it is.
+
+    Of several robots the nearest to an item has it, of equally near ones the first.
+    """
+    world, kinds, commands, robots = state.world, tables.things, state.world.acting[i], tables.world[0].robots
+    held, things = world.held, world.things
     for lane in range(lanes):
-        held[lane] = -1 if commands[lane] <= HALF else held[lane]
-    for lane in range(lanes):
-        if commands[lane] > HALF and held[lane] < 0:
-            for k in range(len(kinds)):
-                is_free = kinds[k].kind == ITEM and held[lane] < 0
-                if is_free and in_claw(body, heading, things, front, actuator.reach, k, lane):
-                    held[lane] = k if has_room(tables, world, k, lane) else -1
+        if commands[lane] <= HALF and held[lane] >= 0:
+            x, y = place_of(things, held[lane], lane)
+            put_thing(things, held[lane], x, y, lane - lane % robots)
+            held[lane] = -1
+    for home in range(0, lanes, robots):
+        wanting = 0
+        for lane in range(home, home + robots):
+            wanting += 1 if commands[lane] > HALF and held[lane] < 0 else 0
+        for k in range(len(kinds) if wanting > 0 else 0):
+            taker, nearest = -1, np.inf
+            for lane in range(home, home + (robots if kinds[k].kind == ITEM else 0)):
+                if commands[lane] > HALF and held[lane] < 0 and can_take(tables, world, i, k, lane):
+                    x, y = place_of(things, k, lane)
+                    far = (x - world.body[X, lane]) ** 2 + (y - world.body[Y, lane]) ** 2
+                    taker, nearest = (lane, far) if far < nearest else (taker, nearest)
+            if taker >= 0:
+                held[taker] = k
+
+
+def can_take(tables, world, i, k, lane):
+    """True if item k is in reach of claw i, and can come into it."""
+    front, reach = tables.world[0].front, tables.actuators[i].reach
+    is_near = in_claw(world.body, world.heading, world.things, front, reach, k, lane)
+    return is_near and has_room(tables, world, k, lane)
 
 
 def has_room(tables, world, i, lane):
@@ -129,6 +150,8 @@ def has_room(tables, world, i, lane):
     x, y = place_of(world.things, i, lane)
     half, (own_x, own_y) = size_of(world.things, i, lane) / 2, middle_of(world.body, lane)
     to_x, to_y = own_x + cosine * hold, own_y + sine * hold
+    if len(tables.mates) > 0 and meets_robot(tables, world, i, to_x, to_y, lane):
+        return False
     for from_x, from_y in ((own_x, own_y), (x, y)):
         if is_barred(world.boxes, tables.world[0], from_x, from_y, to_x, to_y, CLOSED_UNITS, lane):
             return False
@@ -139,6 +162,30 @@ def has_room(tables, world, i, lane):
         if is_walled(world.boxes, own_x, own_y, to_x + half * rim_x, to_y + half * rim_y, lane):
             return False
     return True
+
+
+@OF_SEVERAL
+def meets_robot(tables: Tables, world: WorldState, i: int, to_x: float, to_y: float, lane: int) -> int:
+    """True if item i would meet another robot, or what that holds, on its way to a place in the claw of a lane."""
+    robots, things = tables.world[0].robots, world.things
+    (x, y), half = place_of(things, i, lane), size_of(things, i, lane) / 2
+    home, found = lane - lane % robots, False
+    for other in range(home, home + robots):
+        if other != lane:
+            its_x, its_y = middle_of(world.body, other)
+            found = found or comes_to(its_x, its_y, x, y, to_x, to_y, half + tables.world[0].radius)
+            if world.held[other] >= 0:
+                its_x, its_y = place_of(things, world.held[other], other)
+                gap = half + size_of(things, world.held[other], other) / 2
+                found = found or comes_to(its_x, its_y, x, y, to_x, to_y, gap)
+    return found
+
+
+def comes_to(its_x, its_y, x, y, to_x, to_y, near):
+    """True if a way between two places begins or ends nearer than `near` to another, or comes nearer on the way."""
+    dx, dy, from_x, from_y = its_x - to_x, its_y - to_y, its_x - x, its_y - y
+    is_near = dx * dx + dy * dy < near * near or from_x * from_x + from_y * from_y < near * near
+    return is_near or comes_nearer(from_x, from_y, to_x - x, to_y - y, near)
 
 
 def carry(world, kinds, lanes):

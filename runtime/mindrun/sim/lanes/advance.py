@@ -59,8 +59,9 @@ def conclude(tables: Tables, state: State, jobs: Jobs, interrupt: int) -> None:
     over, ticks, ended = 0, jobs.most[0], state.run.ended
     for lane in range(lanes):
         over += is_lost(world.body, lane) | (ended[lane] != GOING_ON) | (world.tick[lane] >= ticks)
-    for k in range(lanes if over > 0 else 0):
-        end(tables, state, jobs, lanes - 1 - k)
+    robots = tables.world[0].robots
+    for k in range(lanes // robots if over > 0 else 0):
+        end(tables, state, jobs, lanes - robots * (k + 1))
 
 
 @unit_where(seldom)

@@ -6,10 +6,12 @@ from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import *
 from mindrun.sim import codes
 from mindrun.sim.codes import DELIVERY, GOING_ON, LEAVE, REACH, Tables
+from mindrun.sim.lanes.placement import OF_SEVERAL
 from mindrun.sim.lanes.reaching import arrivals, become, begun_of, cross, meet
+from mindrun.sim.lanes.sharing import share
 from mindrun.sim.lanes.solid import remove_box
 from mindrun.sim.lanes.think import run_program
-from mindrun.sim.state import PLACE_ROWS, State, WorldState
+from mindrun.sim.state import PLACE_ROWS, JudgeState, State, WorldState
 from mindrun.sim.units import unit, unit_where
 
 
@@ -37,6 +39,8 @@ def judge(tables: Tables, state: State, lanes: int, clock: int, interrupt: int) 
         reward(tables, state, tables.rewards[i], judged.lines[i], lanes)
     if begun > 0:
         become(tables, world, lanes)
+        if len(tables.mates) > 0:
+            share(tables, world, lanes)
     oldest = PLACE_ROWS * (clock % TRAIL_TICKS)
     for lane in range(lanes):
         world.tick[lane] += 1
@@ -104,13 +108,14 @@ def notice(tables, state, i, out, lanes):
     elif event.kind == DELIVERY and event.tos == 0:
         begun_of(out, world.delivered, event, lanes)
     elif event.kind == DELIVERY:
-        for lane in range(lanes):
-            out[lane] = arrivals(world, judged.arrived, event, lane)
+        arrivals(world, judged.arrived, event, out, tables.world[0].robots, lanes)
     elif event.kind == codes.VISIT:
         for lane in range(lanes):  # the first time that the robot's centre is in a patch
             patch = event.board + patch_of(world.body, tables.world[0], event, lane)
             out[lane] = 1 - judged.visited[lane, patch]
             judged.visited[lane, patch] = 1
+    elif event.kind == codes.COLLISION and event.things > 0:
+        bump(tables, state, i, lanes)
     elif event.kind == codes.COLLISION:
         for lane in range(lanes):
             out[lane] = 1 if contact.touching[lane] == 1 else 0
@@ -120,6 +125,19 @@ def notice(tables, state, i, out, lanes):
     elif event.kind != codes.ITS_END:  # which stands there already
         out[:lanes] = 0  # a success comes later in the tick
     return count_positive(out, lanes)
+
+
+@OF_SEVERAL
+def bump(tables: Tables, state: State, i: int, lanes: int) -> None:
+    """Count the robots of event i that each begins to touch in this tick."""
+    event, mates, robots, out = tables.events[i], state.contact.mates, tables.world[0].robots, state.judge.events[i]
+    for lane in range(lanes):
+        begun, out[lane] = mates[0, lane] & ~mates[1, lane], 0.0
+        for number in range(robots):
+            # What another is to the first, the first is to it.
+            thing = tables.mates[(number if number > 0 else lane % robots) - 1].thing
+            is_about = event.thing <= thing < event.thing + event.things
+            out[lane] += 1.0 if begun >> number & 1 == 1 and is_about else 0.0
 
 
 def count_positive(row, lanes):
@@ -183,13 +201,13 @@ def meet_end(tables, state, end, i, lanes, interrupt):
     if end.event >= 0:
         if judged.happened[end.event] == 0:
             return
-        for lane in range(lanes):
-            is_last = judged.counts[end.event, lane] >= end.times
-            judged.paid[lane] = 1.0 if is_last and judged.events[end.event, lane] > 0.0 else 0.0
+        come_by_event(judged, end, tables.world[0].robots, lanes)
     else:
         run_program(tables, state, end.when, end.whens, 0, lanes, True)
         for lane in range(lanes):
             judged.paid[lane] = 1.0 if state.mind.stack[0, lane] > 0.0 else 0.0
+    if len(tables.mates) > 0:
+        end_together(tables, judged, lanes)
     if not end.is_end:
         open_boxes(tables, state, i, lanes)
         return
@@ -201,6 +219,26 @@ def meet_end(tables, state, end, i, lanes, interrupt):
             judged.paid[lane] = 0.0
     if end.succeeds:
         mark_success(tables, judged, lanes)
+
+
+def come_by_event(judged, end, robots, lanes):
+    """Set `paid` to 1 where the event of an end happens, and has so often to the robots of a world together."""
+    for home in range(0, lanes, robots):
+        times = 0
+        for lane in range(home, home + robots):
+            times += judged.counts[end.event, lane]
+        for lane in range(home, home + robots):
+            judged.paid[lane] = 1.0 if times >= end.times and judged.events[end.event, lane] > 0.0 else 0.0
+
+
+@OF_SEVERAL
+def end_together(tables: Tables, judged: JudgeState, lanes: int) -> None:
+    """Let an end that has come for one robot of a world have come for all of them."""
+    for lane in range(lanes):
+        home = lane - lane % tables.world[0].robots
+        judged.paid[home] = max(judged.paid[home], judged.paid[lane])
+    for lane in range(lanes):
+        judged.paid[lane] = judged.paid[lane - lane % tables.world[0].robots]
 
 
 @unit_where(lambda tables: (tables.ends["is_end"] == 0).any())

@@ -9,8 +9,8 @@ import numpy as np
 
 from mindrun.numbers.arithmetic import *
 from mindrun.sim.codes import HALF_DIAGONAL, Tables
-from mindrun.sim.lanes.solid import drift_of, extent_of, is_free, loose_place, loose_size, turn_of, within
-from mindrun.sim.state import FIRST_LOOSE, PLACE_ROWS, ContactState, WorldState
+from mindrun.sim.lanes.solid import drift_of, extent_of, first_loose, is_free, loose_place, loose_size, turn_of, within
+from mindrun.sim.state import PLACE_ROWS, ContactState, WorldState
 from mindrun.sim.units import unit_where
 
 REST_SPEED = 1e-3  # units and radians per second: what is slower stands still
@@ -29,7 +29,7 @@ def slow_down(tables: Tables, world: WorldState, contact: ContactState, lane: in
     loose, dt, restless = world.loose, tables.world[0].dt, 0
     for i in range(len(tables.loose)):
         if world.still[i, lane] < SETTLED_TICKS:
-            contact.solids[lane, FIRST_LOOSE + i].is_asleep = 0
+            contact.solids[lane, first_loose(tables) + i].is_asleep = 0
             thing, slower = tables.loose[i].thing, world.numbers[tables.loose[i].slower, lane]
             vx, vy, spin = drift_of(loose, i, lane)
             vx, vy, spin = vx * slower, vy * slower, spin * slower
@@ -47,16 +47,18 @@ def slow_down(tables: Tables, world: WorldState, contact: ContactState, lane: in
     world.restless[lane] = restless
 
 
-def wanted_way(world, row, x, y, lane):
+def wanted_way(world, robots, row, x, y, lane):
     """The way along x and y that something at a place wants to go in this tick, as its row of a table says.
 
     It leads straight towards the nearest that it seeks and not past that, or away from what it flees. It is no number
     where that is too far away, or where there is no direction away from it.
     """
     dx, dy, far = 0.0, 0.0, np.inf
-    if row.afters == 0:
-        dx, dy = world.body[X, lane] - x, world.body[Y, lane] - y
-        far = length(dx, dy)
+    for its in range(lane, lane + (robots if row.afters == 0 else 0)):
+        its_x, its_y = middle_of(world.body, its)
+        away = length(its_x - x, its_y - y)
+        if its == lane or away < far:
+            dx, dy, far = its_x - x, its_y - y, away
     for other in range(row.after, row.after + row.afters):
         its_x, its_y = place_of(world.things, other, lane)
         away = length(its_x - x, its_y - y)
@@ -77,7 +79,7 @@ def drive(tables: Tables, world: WorldState, i: int, lane: int) -> None:
     """
     loose, dt = tables.loose[i], tables.world[0].dt
     x, y = next_place_of(tables, world, i, lane)
-    dx, dy = wanted_way(world, loose, x, y, lane)
+    dx, dy = wanted_way(world, tables.world[0].robots, loose, x, y, lane)
     slower, mass = world.numbers[loose.slower, lane], mass_of(tables, world, i, lane)
     vx, vy, _ = drift_of(world.loose, i, lane)
     along, across = (dx / dt / slower - vx) * mass / dt, (dy / dt / slower - vy) * mass / dt

@@ -10,12 +10,11 @@ import numpy as np
 
 from mindrun.numbers.arithmetic import *
 from mindrun.sim.codes import PERSISTENCE_TICKS, WALL_COUNT, Tables
-from mindrun.sim.lanes.loose import OF_LOOSE
 from mindrun.sim.lanes.nearest_points import LEAST_NORMAL, farthest, nearest_points
 from mindrun.sim.lanes.placement import ENDLESS_UNITS
-from mindrun.sim.lanes.solid import count_of
-from mindrun.sim.lanes.solids import overlap, put_corners, put_held
-from mindrun.sim.state import FIRST_LOOSE, FIXED, HELD, ROBOT, ContactState, WorldState
+from mindrun.sim.lanes.solid import count_of, first_loose
+from mindrun.sim.lanes.solids import overlap, put_corners, put_held, turn
+from mindrun.sim.state import FIXED, ROBOT, ContactState, WorldState
 from mindrun.sim.units import unit_where
 
 SLOTS, HASH_X, HASH_Y = np.uint64(23), np.uint64(1640531513), np.uint64(2654435789)
@@ -51,13 +50,18 @@ def swap(order, i, k):
 
 def sides_of(tables, world, solids, number, lane):
     """The sides of a solid or, behind these, of a box or, behind these, of a wall: left, low, right, top."""
-    b, boxes = number - FIRST_LOOSE - len(tables.loose), count_of(world.boxes)
+    b, boxes = number - first_box(tables), count_of(world.boxes)
     if b < 0:
         return solids[number].left, solids[number].low, solids[number].right, solids[number].high
     if b >= boxes:
         return wall_of(tables.world[0].half_x, tables.world[0].half_y, b - boxes)
     x, y, wide, high = box_of(world.boxes, b, lane)
     return x - wide, y - high, x + wide, y + high
+
+
+def first_box(tables):
+    """The number of the first box, behind all solids that move."""
+    return first_loose(tables) + len(tables.loose)
 
 
 def wall_of(x, y, wall):
@@ -88,6 +92,7 @@ def floor(number):
 
 KEY_RANGE = 1 << 26
 CORNER_HASH, NO_HASH = np.uint64(3344921057), np.uint64(0)  # the only contact of a circle has none
+OF_MOVERS = unit_where(lambda tables: len(tables.loose) > 0 or len(tables.mates) > 0)
 OF_QUADRANGLES = unit_where(lambda tables: not tables.world[0]["is_round"] or not tables.loose["is_round"].all())
 
 
@@ -101,24 +106,27 @@ def forget_old(space, pairs, order):
     space.pairs, space.touching = kept, 0
 
 
-@OF_LOOSE
+@OF_MOVERS
 def touch_movers(tables: Tables, world: WorldState, contact: ContactState, lane: int) -> None:
-    """Note what touches of all that moves."""
+    """Note what touches of all that moves, and which robots touch each other."""
     space, solids, awake = contact.space[lane], contact.solids[lane], contact.awake[lane]
     for i in range(1, space.awake):
         a, begin = awake[i], space.touching
         for k in range(i - 1, -1, -1):
-            b = awake[k]
-            if overlap(solids[a], solids[b]) and a + b != ROBOT + HELD:
+            b, before = awake[k], space.touching
+            if overlap(solids[a], solids[b]) and solids[a].body != solids[b].body:
                 meet(contact, a, b, b, lane)
+                if space.touching > before and solids[a].robot >= 0 and solids[b].robot >= 0:
+                    contact.space[lane + solids[a].robot].met |= 1 << solids[b].robot
+                    contact.space[lane + solids[b].robot].met |= 1 << solids[a].robot
         if space.touching - begin > 1:
             rank(tables, world, contact, a, begin, lane)
 
 
 def touch_fixed(tables, world, contact, lane):
-    """Note what touches what never moves, and how often the robot does, with what it holds."""
-    space, awake, near = contact.space[lane], contact.awake[lane], contact.close[lane]
-    number = FIRST_LOOSE + len(tables.loose)  # of the first box
+    """Note what touches what never moves, and how often each robot does, with what it holds."""
+    space, awake, near, solids = contact.space[lane], contact.awake[lane], contact.close[lane], contact.solids[lane]
+    number = first_box(tables)
     for i in range(space.awake):
         a, begin = awake[i], space.touching
         for k in range(find_close(tables, world, contact, a, lane) - 1, -1, -1):
@@ -127,7 +135,8 @@ def touch_fixed(tables, world, contact, lane):
         count = space.touching - begin
         if count > 1:
             rank(tables, world, contact, a, begin, lane)
-        space.run_into += count if a in (ROBOT, HELD) else 0
+        if solids[a].robot >= 0:
+            contact.space[lane + solids[a].robot].run_into += count
 
 
 def let_go(tables, world, contact, lane):
@@ -135,16 +144,30 @@ def let_go(tables, world, contact, lane):
 
     For Chipmunk that is a contact without impulses, and what does not touch one that it remembers.
     """
-    solids, pairs, space = contact.solids[lane], contact.pairs[lane], contact.space[lane]
+    pairs, space = contact.pairs[lane], contact.space[lane]
     for i in range(space.touching, space.pairs):
         pair = pairs[contact.order[lane, i]]
-        if pair.thing >= 0 and pair.thing != space.in_claw:
-            put_held(tables, world, contact, pair.thing, pair.reach, lane)
-            b = pair.own if pair.other == ROBOT else pair.other
-            if b == FIXED:
-                put_fixed(tables, world, contact, pair.found, lane)
-            if overlap(solids[HELD], solids[b]) and touch_circle(solids[HELD], solids[b])[0]:
-                pair.used = -PERSISTENCE_TICKS
+        if was_let_go(contact, pair.thing, pair.own, lane):
+            part_if_near(tables, world, contact, pair, pair.thing, pair.own, pair.other, lane)
+        elif was_let_go(contact, pair.its_thing, pair.other, lane):
+            part_if_near(tables, world, contact, pair, pair.its_thing, pair.other, pair.own, lane)
+
+
+def was_let_go(contact, thing, own, lane):
+    """True if a thing was in the claw of a robot, whose solid is given, and is not any more."""
+    return thing >= 0 and thing != contact.space[lane + contact.solids[lane, own].robot].in_claw
+
+
+def part_if_near(tables, world, contact, pair, thing, own, b, lane):
+    """Forget a pair if the thing that a robot has let go would touch solid `b` where it was held."""
+    solids = contact.solids[lane]
+    held, own_lane = solids[own + 1], lane + solids[own].robot
+    turn(tables, solids[own], world.body[ANGLE, own_lane])
+    put_held(tables, solids[own], held, thing, pair.reach)
+    if b == FIXED:
+        put_fixed(tables, world, contact, pair.found, lane)
+    if overlap(held, solids[b]) and touch_circle(held, solids[b])[0]:
+        pair.used = -PERSISTENCE_TICKS
 
 
 def put_fixed(tables, world, contact, number, lane):
@@ -152,7 +175,7 @@ def put_fixed(tables, world, contact, number, lane):
     solids, fixed = contact.solids[lane], contact.solids[lane, FIXED]
     fixed.left, fixed.low, fixed.right, fixed.high = sides_of(tables, world, solids, number, lane)
     put_corners(fixed.corners, fixed.left, fixed.low, fixed.right, fixed.high)
-    fixed.number = number - FIRST_LOOSE - len(tables.loose)
+    fixed.number = number - first_box(tables)
 
 
 def find_close(tables, world, contact, a, lane):
@@ -192,7 +215,10 @@ def meet(contact, a, b, found, lane):
 
 def named(contact, a, lane):
     """The number of a solid that no other has; every thing has its own in the claw."""
-    return -1 - contact.space[lane].in_claw if a == HELD else a
+    solids = contact.solids[lane]
+    if a >= len(solids) or solids[a].body == a:
+        return a
+    return -1 - contact.space[lane + solids[a].robot].in_claw
 
 
 def touch_circle(circle, other):
@@ -227,20 +253,22 @@ def take_pair(contact, a, b, key, found, nx, ny, lane):
     if k == space.pairs:
         space.pairs += 1
         pair.key, pair.used, pair.count = key, -1, 0
-        pair.thing = space.in_claw if HELD in (a, b) else -1
+        pair.thing, pair.its_thing = in_claw(contact, a, lane), in_claw(contact, b, lane)
     swap(order, space.touching, k)
     space.touching += 1
     pair.is_first = 0 if pair.used == space.steps - 1 else 1
     pair.used, pair.found = space.steps, found
-    pair.own, pair.other = body_of(a), body_of(b)
-    pair.normal_x, pair.normal_y, pair.reach = nx, ny, solids[HELD].radius
+    pair.own, pair.other = solids[a].body, solids[b].body
+    pair.normal_x, pair.normal_y = nx, ny
+    pair.reach = solids[a if solids[a].body != a else b].radius
     pair.friction = solids[a].friction * solids[b].friction
     return i
 
 
-def body_of(a):
-    """The solid with whose motion a solid moves."""
-    return ROBOT if a == HELD else a
+def in_claw(contact, a, lane):
+    """The thing that solid `a` is in a claw, or −1."""
+    solid = contact.solids[lane, a]
+    return -1 if solid.body == a else contact.space[lane + solid.robot].in_claw
 
 
 def put_contact(solids, pair, known, along, across, x, y, its_x, its_y):

@@ -8,12 +8,13 @@ import numpy as np
 
 from mindrun.graph.tasks import meets_robot
 from mindrun.numbers.arithmetic import *
-from mindrun.sim.codes import FAR, Tables
+from mindrun.sim.codes import FAR, OTHER_ROBOT, Tables
 from mindrun.sim.lanes.solid import count_of, is_clear, put_box
 from mindrun.sim.state import WorldState
-from mindrun.sim.units import unit
+from mindrun.sim.units import unit, unit_where
 
 MAX_TRIES = 1000
+OF_SEVERAL = unit_where(lambda tables: len(tables.mates) > 0)  # robots in one world
 ENDLESS_UNITS = 1e300  # half the side of what is no arena is infinite, above this
 
 
@@ -36,8 +37,10 @@ def draw(tables: Tables, world: WorldState, lane: int) -> None:
             x, y = place_for(tables, world, i, False, lane)
             put_thing(world.things, i, x, y, lane)
     start(tables, world, lane)
+    if len(tables.mates) > 0:
+        start_mates(tables, world, lane)
     for i in range(len(tables.things)):
-        if tables.things[i].is_fixed:
+        if tables.things[i].is_fixed and tables.things[i].kind != OTHER_ROBOT:
             appear(tables, world, i, lane)
     for i in range(len(tables.obstacles)):
         obstacle = tables.obstacles[i]
@@ -49,7 +52,8 @@ def draw(tables: Tables, world: WorldState, lane: int) -> None:
             box += 1
     for is_within in range(2):
         for i in range(len(tables.things)):
-            if not tables.things[i].is_fixed and tables.things[i].is_within == is_within:
+            thing = tables.things[i]
+            if not thing.is_fixed and thing.is_within == is_within and thing.kind != OTHER_ROBOT:
                 appear(tables, world, i, lane)
 
 
@@ -173,25 +177,67 @@ def start(tables, world, lane):
     Clear by its own width all around, and on no goal; where no try succeeds, the last of the best: touching something
     solid is worse than a goal, and that is worse than being near to something.
     """
-    body, random, constants, radius = world.body, world.random, tables.world[0], tables.world[0].radius
-    room_x, room_y = start_room(constants.half_x, radius), start_room(constants.half_y, radius)
+    body, constants = world.body, tables.world[0]
     body[:, lane] = 0.0
     if constants.is_placed:
         body[X, lane], body[Y, lane] = constants.start_x, constants.start_y
     elif constants.half_x < ENDLESS_UNITS:
-        best = 0
-        for _ in range(MAX_TRIES):
-            x, y = anywhere(random, -room_x, room_x, -room_y, room_y, lane)
-            fits = 0
-            if clear_of_all(tables, world, x, y, radius, lane):
-                fits = 1
-                if is_open(tables, world, x, y, lane):
-                    fits = 3 if clear_of_all(tables, world, x, y, 3 * radius, lane) else 2
-            if fits >= best:
-                best, body[X, lane], body[Y, lane] = fits, x, y
-            if fits == 3:
-                break
-    body[ANGLE, lane] = constants.facing if constants.is_faced else uniform(random, lane, 0.0, 2 * np.pi)
+        start_anywhere(tables, world, lane)
+    body[ANGLE, lane] = constants.facing if constants.is_faced else uniform(world.random, lane, 0.0, 2 * np.pi)
+
+
+def start_anywhere(tables, world, lane):
+    """Put the robot of a lane anywhere clear in its arena."""
+    body, random, constants, radius = world.body, world.random, tables.world[0], tables.world[0].radius
+    room_x, room_y = start_room(constants.half_x, radius), start_room(constants.half_y, radius)
+    best = 0
+    for _ in range(MAX_TRIES):
+        x, y = anywhere(random, -room_x, room_x, -room_y, room_y, lane)
+        fits = 0
+        if clear_of_all(tables, world, x, y, radius, lane):
+            fits = 1
+            if is_open(tables, world, x, y, lane):
+                fits = 3 if clear_of_all(tables, world, x, y, 3 * radius, lane) else 2
+        if fits >= best:
+            best, body[X, lane], body[Y, lane] = fits, x, y
+        if fits == 3:
+            break
+
+
+@OF_SEVERAL
+def start_mates(tables: Tables, world: WorldState, home: int) -> None:
+    """Put the other robots of a world where they begin, one after the other, each drawn by itself.
+
+    In its own lane each has a copy of the world so far, with the robots before it: the first stands in its own place.
+    """
+    constants, things = tables.world[0], world.things
+    for number in range(1, constants.robots):
+        lane, mate = home + number, tables.mates[number - 1].thing
+        for column in range(world.boxes.shape[1]):
+            world.boxes[lane, column] = world.boxes[home, column]
+        for row in range(things.shape[0]):
+            things[row, lane] = things[row, home]
+        put_thing(things, mate, world.body[X, home], world.body[Y, home], lane)
+        resize_thing(things, mate, 2 * constants.radius, lane)
+        start_mate(tables, world, mate, home, lane)
+        put_thing(things, mate, world.body[X, lane], world.body[Y, lane], home)
+        resize_thing(things, mate, 2 * constants.radius, home)
+
+
+def start_mate(tables, world, mate, home, lane):
+    """Put the robot of a lane at the place of its thing, anywhere clear in an arena, or around the first one."""
+    thing, body, constants = tables.things[mate], world.body, tables.world[0]
+    body[:, lane] = 0.0
+    if thing.is_fixed:
+        body[X, lane], body[Y, lane] = place_of(world.things, mate, home)
+    elif constants.half_x < ENDLESS_UNITS:
+        start_anywhere(tables, world, lane)
+    else:
+        body[X, lane], body[Y, lane] = middle_of(body, home)  # from where distances count
+        low = max(thing.low, 4 * constants.radius)
+        x, y = find(tables, world, low, max(thing.high, low), 0.0, constants.radius, mate, lane)
+        body[X, lane], body[Y, lane] = x, y
+    body[ANGLE, lane] = uniform(world.random, lane, 0.0, 2 * np.pi)
 
 
 def anywhere(random, left, right, below, above, lane):
@@ -300,20 +346,21 @@ def succeed(tables, world, i, lane):
     elif thing.first < thing.last:
         size = min(thing.last, size + thing.by)
     resize_thing(world.things, i, size, lane)
-    forget(world, i, lane)
+    forget(tables, world, i, lane)
     put(tables, world, i, lane)
 
 
 def vanish(tables, world, i, lane):
     """Remove thing i for the rest of the run: a place that is NaN is in nobody's reach or way."""
-    forget(world, i, lane)
+    forget(tables, world, i, lane)
     put_at(tables, world, i, np.nan, np.nan, lane)
 
 
-def forget(world, i, lane):
-    """Let thing i go, and clear the bits of its being reached and delivered."""
-    world.held[lane] = -1 if world.held[lane] == i else world.held[lane]
-    world.reached[i, lane], world.delivered[i, lane] = 0, 0
+def forget(tables, world, i, home):
+    """Let thing i go, and clear the bits of its being reached and delivered, by any robot of a world."""
+    for lane in range(home, home + tables.world[0].robots):
+        world.held[lane] = -1 if world.held[lane] == i else world.held[lane]
+        world.reached[i, lane], world.delivered[i, lane] = 0, 0
 
 
 def clear_of_all(tables, world, x, y, margin, lane):
@@ -325,6 +372,11 @@ def clear_of_all(tables, world, x, y, margin, lane):
         gap = max(thing.first, thing.last) / 2 + margin
         its_x, its_y = place_of(world.things, tables.loose[i].thing, lane)
         if thing.is_fixed and abs(its_x - x) < gap and abs(its_y - y) < gap:
+            return False
+    for i in range(len(tables.mates)):
+        its_x, its_y = place_of(world.things, tables.mates[i].thing, lane)
+        gap = tables.world[0].radius + margin
+        if abs(its_x - x) < gap and abs(its_y - y) < gap:
             return False
     return True
 

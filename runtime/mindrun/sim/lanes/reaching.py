@@ -22,24 +22,35 @@ def meet(tables, world, lanes):
         if thing.is_reached and not thing.is_area:
             for lane in range(lanes):
                 now = in_claw(body, world.heading, things, front, claw, i, lane)
-                begun += note(world.reached, i, lane, now)
+                begun += note(world.reached, i, lane, world.reached[i, lane], now)
         elif thing.is_reached:
             for lane in range(lanes):
                 x, y = middle_of(body, lane)
-                begun += note(world.reached, i, lane, inside(things, i, x, y, lane))
+                begun += note(world.reached, i, lane, world.reached[i, lane], inside(things, i, x, y, lane))
         if thing.is_delivered:
-            for lane in range(lanes):
-                if thing.settles and world.still[thing.loose, lane] >= SETTLED_TICKS:
+            robots = tables.world[0].robots
+            for home in range(0, lanes, robots):
+                if thing.settles and world.still[thing.loose, home] >= SETTLED_TICKS:
                     continue  # neither it nor any zone has moved since it was looked at
-                carried = thing.loose >= 0 or world.delivered[i, lane] & 1 == 1 or world.held[lane] == i
-                begun += note(world.delivered, i, lane, carried and in_zone(tables, things, i, lane))
+                before = by_any(world.delivered, i, home, robots)
+                for lane in range(home, home + robots):
+                    carried = thing.loose >= 0 or world.delivered[i, lane] & 1 == 1 or world.held[lane] == i
+                    begun += note(world.delivered, i, lane, before, carried and in_zone(tables, things, i, lane))
     return begun
 
 
-def note(rows, i, lane, now):
-    """Shift `now` into the bits of thing i, one for each of two ticks; return 1 where it begins, else 0."""
-    rows[i, lane] = (rows[i, lane] & 1) << 1 | (1 if now else 0)
+def note(rows, i, lane, before, now):
+    """Write the bits of thing i, one for now and one for `before`; return 1 where it begins, else 0."""
+    rows[i, lane] = (before & 1) << 1 | (1 if now else 0)
     return 1 if rows[i, lane] == REACH_BEGUN else 0
+
+
+def by_any(rows, i, home, robots):
+    """Bit 0 of thing i, set where it is for any robot of a world, whose first lane is given."""
+    found = 0
+    for lane in range(home, home + robots):
+        found |= rows[i, lane] & 1
+    return found
 
 
 def in_zone(tables, things, i, lane):
@@ -59,16 +70,27 @@ def begun_of(out, rows, event, lanes):
             out[lane] += 1 if rows[i, lane] == REACH_BEGUN else 0
 
 
-def arrivals(world, arrived, event, lane):
-    """The number of things that an event is about and that begin to be delivered into one of its zones."""
-    things, begun = world.things, 0
+def arrivals(world, arrived, event, out, robots, lanes):
+    """Count the things that an event is about and that begin to be delivered into one of its zones into `out` [lane].
+
+    Once for all robots of a world.
+    """
+    out[:lanes] = 0
     for k in range(event.things):
-        found = False
-        x, y = place_of(things, event.thing + k, lane)
-        for zone in range(event.to, event.to + event.tos):
-            found = found or inside(things, zone, x, y, lane)
-        begun += note(arrived, event.arrival + k, lane, found and world.delivered[event.thing + k, lane] & 1 == 1)
-    return begun
+        for home in range(0, lanes, robots):
+            before = by_any(arrived, event.arrival + k, home, robots)
+            for lane in range(home, home + robots):
+                now = world.delivered[event.thing + k, lane] & 1 == 1 and lies_in(world.things, event, k, lane)
+                out[lane] += note(arrived, event.arrival + k, lane, before, now)
+
+
+def lies_in(things, event, k, lane):
+    """True if the middle of the k-th thing of an event is in one of the zones that it is about."""
+    found = False
+    x, y = place_of(things, event.thing + k, lane)
+    for zone in range(event.to, event.to + event.tos):
+        found = found or inside(things, zone, x, y, lane)
+    return found
 
 
 @unit_where(lambda tables: is_crossing(tables.events).any())
@@ -79,8 +101,9 @@ def cross(tables: Tables, state: State, i: int, lanes: int) -> None:
     for lane in range(lanes):
         judged.events[i, lane] = 0.0
         for k in range(max(1, event.tos)):
-            note(judged.arrived, event.arrival + k, lane, is_there(tables, world, event, k, lane))
-            judged.events[i, lane] += 1.0 if judged.arrived[event.arrival + k, lane] == wanted else 0.0
+            row = event.arrival + k
+            note(judged.arrived, row, lane, judged.arrived[row, lane], is_there(tables, world, event, k, lane))
+            judged.events[i, lane] += 1.0 if judged.arrived[row, lane] == wanted else 0.0
 
 
 @unit_where(lambda tables: (tables.events["kind"] == LEAVE).any())
@@ -119,11 +142,12 @@ def become(tables, world, lanes):
         thing = tables.things[i]
         if thing.reached == STAYS and thing.delivered == STAYS:
             continue
-        for lane in range(lanes):
-            outcome = thing.reached if world.reached[i, lane] == REACH_BEGUN else STAYS
-            if world.delivered[i, lane] == REACH_BEGUN:
-                outcome = max(outcome, thing.delivered)
+        for home in range(0, lanes, tables.world[0].robots):
+            outcome = STAYS
+            for lane in range(home, home + tables.world[0].robots):
+                outcome = max(outcome, thing.reached if world.reached[i, lane] == REACH_BEGUN else STAYS)
+                outcome = max(outcome, thing.delivered if world.delivered[i, lane] == REACH_BEGUN else STAYS)
             if outcome == MOVES:
-                succeed(tables, world, i, lane)
+                succeed(tables, world, i, home)
             elif outcome == VANISHES:
-                vanish(tables, world, i, lane)
+                vanish(tables, world, i, home)

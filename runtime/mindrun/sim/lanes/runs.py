@@ -8,65 +8,92 @@ from mindrun.numbers.arithmetic import *
 from mindrun.sim import codes
 from mindrun.sim.codes import Tables
 from mindrun.sim.lanes.judge import patch_of
-from mindrun.sim.lanes.placement import any_of, draw, vanish
+from mindrun.sim.lanes.placement import OF_SEVERAL, any_of, draw, vanish
 from mindrun.sim.lanes.reaching import begin_inside
+from mindrun.sim.lanes.sharing import share_world
 from mindrun.sim.lanes.solid import is_lost, remove_box
 from mindrun.sim.lanes.think import run_program
 from mindrun.sim.parameter_rows import computed
-from mindrun.sim.state import PLACE_ROWS, Jobs, State
+from mindrun.sim.state import PLACE_ROWS, Jobs, State, WorldState
 from mindrun.sim.units import unit, unit_where
 
 BEFORE_THE_WORLD = np.uint64(draws.BEFORE_THE_WORLD)
+BETWEEN_ROBOTS = np.uint64(0xA0761D6478BD642F)
 MEASURED_ASIDE = np.uint64(0xD1B54A32D192ED03)  # what no skill reads draws from a generator of its own
 
 
 @unit
 def fill(tables: Tables, state: State, jobs: Jobs, lanes: int) -> None:
-    """Begin as many jobs as there are lanes."""
-    for lane in range(lanes):
-        if not begin_job(tables, state, jobs, lane):
+    """Begin as many jobs as there are lanes for: each has one for every robot of its world."""
+    robots = tables.world[0].robots
+    for home in range(0, lanes, robots):
+        if not begin_job(tables, state, jobs, home):
             break
-        jobs.lanes[0] = lane + 1
+        jobs.lanes[0] = home + robots
 
 
 @unit
-def end(tables: Tables, state: State, jobs: Jobs, lane: int) -> None:
-    """Write a lane's run down where it is over, and begin the next one, or move the last lane to its place."""
-    run = state.run
-    if is_lost(state.world.body, lane):
-        run.faults[lane] += 1
-        run.ended[lane] = codes.LOST
-    if run.ended[lane] != codes.GOING_ON or state.world.tick[lane] >= jobs.most[0]:
-        finish(tables, state, jobs, lane)
-        if not begin_job(tables, state, jobs, lane):
-            last = jobs.lanes[0] - 1
-            if lane != last:
-                move(state, last, lane)
+def end(tables: Tables, state: State, jobs: Jobs, home: int) -> None:
+    """Write the run of a world down where it is over, and begin the next one, or move the last world to its place."""
+    run, robots = state.run, tables.world[0].robots
+    for lane in range(home, home + robots):
+        if is_lost(state.world.body, lane):
+            run.faults[lane] += 1
+            run.ended[home] = codes.LOST
+    if run.ended[home] != codes.GOING_ON or state.world.tick[home] >= jobs.most[0]:
+        finish(tables, state, jobs, home)
+        if not begin_job(tables, state, jobs, home):
+            last = jobs.lanes[0] - robots
+            for number in range(robots if home != last else 0):
+                move(state, last + number, home + number)
             jobs.lanes[0] = last
 
 
 @unit
-def begin_job(tables: Tables, state: State, jobs: Jobs, lane: int) -> int:
-    """Begin the next job in a lane; False where there is none."""
+def begin_job(tables: Tables, state: State, jobs: Jobs, home: int) -> int:
+    """Begin the next job in a world, whose first lane is given; False where there is none."""
     job, world, mind = jobs.next[0], state.world, state.mind
     if job >= len(jobs.genome):
         return False
     jobs.next[0] = job + 1
-    state.run.job[lane] = job
-    world.seed[lane] = world.random[lane] = jobs.seeds[jobs.seed[job]]
-    draw_numbers(tables, world, world.random[lane], lane)
+    for number in range(tables.world[0].robots):
+        world.seed[home + number] = jobs.seeds[jobs.seed[job]]
+        world.random[home + number] = of_robot(jobs.seeds[jobs.seed[job]], number)
+    draw_numbers(tables, world, world.random[home], home)
     if len(tables.makings) > 0:
-        make_numbers(tables, state, lane)
-    world.random_aside[lane] = world.random[lane] ^ MEASURED_ASIDE
-    draw(tables, world, lane)
-    set_numbers(tables, world, lane)
+        make_numbers(tables, state, home)
+    world.random_aside[home] = world.random[home] ^ MEASURED_ASIDE
+    draw(tables, world, home)
+    set_numbers(tables, world, home)
     if len(tables.presences) > 0:
-        leave_out(tables, state, lane)
+        leave_out(tables, state, home)
+    if len(tables.mates) > 0:
+        copy_world(tables, world, home)
     genome = jobs.genomes[jobs.genome[job]]
-    for i in range(len(genome)):
-        mind.genome[i, lane] = genome[i]
-    reset(tables, state, lane)
+    for lane in range(home, home + tables.world[0].robots):
+        state.run.job[lane] = job
+        for i in range(len(genome)):
+            mind.genome[i, lane] = genome[i]
+        reset(tables, state, lane)
+    if len(tables.mates) > 0:
+        share_world(tables, world, home)
     return True
+
+
+def of_robot(seed, number):
+    """The seed of the generator of the robot with a number: that of the run for the first, others far from it."""
+    return seed + np.uint64(number) * BETWEEN_ROBOTS
+
+
+@OF_SEVERAL
+def copy_world(tables: Tables, world: WorldState, home: int) -> None:
+    """Give the other robots of a world its boxes and its numbers, and generators of their own."""
+    for lane in range(home + 1, home + tables.world[0].robots):
+        copy_row(world.boxes, home, lane)
+        copy_lane(world.numbers, home, lane)
+        copy_lane(world.things, home, lane)
+        world.random_aside[lane] = world.random[lane] ^ MEASURED_ASIDE
+        world.restless[lane] = 0
 
 
 def draw_numbers(tables, world, seed, lane):
@@ -165,22 +192,27 @@ def reset(tables, state, lane):
         elif tables.events[i].kind == codes.LEAVE:
             begin_inside(tables, state, i, lane)
     state.sight.anchor[:, lane] = np.nan
-    state.contact.near[lane], state.contact.touching[lane] = 0, 0
+    state.contact.near[lane], state.contact.touching[lane], state.contact.mates[:, lane] = 0, 0, 0
     state.contact.space[lane].seconds = 0.0
     run.ended[lane], run.met[lane], run.faults[lane] = codes.GOING_ON, codes.GOING_ON, 0
 
 
-def finish(tables, state, jobs, lane):
-    """Write down what came of a lane's job."""
-    judge, run = state.judge, state.run
-    job = run.job[lane]
+def finish(tables, state, jobs, home):
+    """Write down what came of the job of a world: the mean of what its robots are paid, the sum of what happened."""
+    judge, run, robots = state.judge, state.run, tables.world[0].robots
+    job = run.job[home]
     for i in range(len(tables.rewards)):
-        jobs.lines[job, i] = judge.lines[i, lane]
-    for i in range(len(tables.events)):
-        jobs.counts[job, i] = judge.counts[i, lane]
-    jobs.ticks[job], jobs.ended[job], jobs.met[job] = state.world.tick[lane], run.ended[lane], run.met[lane]
-    jobs.faults[job] = run.faults[lane]
-    run.job[lane] = -1
+        paid = 0.0
+        for lane in range(home, home + robots):
+            paid += judge.lines[i, lane]
+        jobs.lines[job, i] = paid / robots
+    jobs.counts[job, : len(tables.events)], jobs.faults[job] = 0, 0
+    for lane in range(home, home + robots):
+        for i in range(len(tables.events)):
+            jobs.counts[job, i] += judge.counts[i, lane]
+        jobs.faults[job] += run.faults[lane]
+        run.job[lane] = -1
+    jobs.ticks[job], jobs.ended[job], jobs.met[job] = state.world.tick[home], run.ended[home], run.met[home]
 
 
 def move(state, source, target):
@@ -195,7 +227,7 @@ def move(state, source, target):
         copy_lane(rows, source, target)
     for rows in (world.reached, world.delivered, judge.arrived):
         copy_lane(rows, source, target)
-    for rows in (world.still, world.goal, judge.counts, judge.left):
+    for rows in (world.still, world.goal, judge.counts, judge.left, contact.mates):
         copy_lane(rows, source, target)
     for rows in (
         mind.readings, mind.before, mind.measured, mind.rings, mind.genome, mind.recurrent, mind.late, mind.commands,
@@ -233,7 +265,7 @@ def copy_row(columns, source, target):
 
 @unit
 def begin_again(tables: Tables, state: State, jobs: Jobs, lane: int) -> None:
-    """End the run of a lane, and begin there the job with the number of the lane."""
+    """End the run of a world, and begin there the job with the number of the world; its first lane is given."""
     finish(tables, state, jobs, lane)
-    jobs.next[0] = lane
+    jobs.next[0] = lane // tables.world[0].robots
     begin_job(tables, state, jobs, lane)

@@ -26,6 +26,8 @@ def sense(tables: Tables, state: State, lanes: int, clock: int) -> None:
         look(tables, world, sight, lanes)
         if len(tables.loose) > 0:
             look_at_loose(tables, world, sight, 0, len(tables.ray_row), lanes)
+        if len(tables.mates) > 0:
+            look_at_robots(tables, world, sight, 0, len(tables.ray_row), lanes)
     sight.nearest_of[0] = -1
     for i in range(len(tables.sensors)):
         sensor = tables.sensors[i]
@@ -51,6 +53,8 @@ def face(tables: Tables, world: WorldState, sight: SightState, i: int, is_turned
         cast(tables, sight, first, last, lanes)
         if len(tables.loose) > 0:
             look_at_loose(tables, world, sight, first, last, lanes)
+        if len(tables.mates) > 0:
+            look_at_robots(tables, world, sight, first, last, lanes)
 
 
 @unit_where(lambda tables: tables.sensors["is_rough"].any())
@@ -190,6 +194,22 @@ def look_at_loose(tables: Tables, world: WorldState, sight: SightState, first: i
                 meet_ball(rows, frame, cosine, sine, out, lanes)
             else:
                 meet_box(rows, frame, cosine, sine, out, lanes)
+
+
+@unit_where(lambda tables: len(tables.mates) > 0 and tables.world[0]["rays"] > 0)
+def look_at_robots(tables: Tables, world: WorldState, sight: SightState, first: int, last: int, lanes: int) -> None:
+    """Shorten each of some rays that meets another robot, but for one of those that its own sensor looks for."""
+    rows, frame, body = sight.sight, sight.frame, world.body
+    for i in range(len(tables.mates)):
+        thing = tables.mates[i].thing
+        for lane in range(lanes):
+            x, y = place_of(world.things, thing, lane)
+            frame[LOOSE_COSINE, lane], frame[LOOSE_SINE, lane] = ONE, ZERO
+            frame[LOOSE_X, lane], frame[LOOSE_Y, lane] = F(x - body[X, lane]), F(y - body[Y, lane])
+            frame[LOOSE_HALF, lane] = F(tables.world[0].radius)
+        for ray in range(first, last):
+            if not (tables.passes[0, ray] <= thing) & (thing < tables.passes[1, ray]):
+                meet_ball(rows, frame, tables.rays[COSINE, ray], tables.rays[SINE, ray], rows[FIRST_RAY + ray], lanes)
 
 
 def enter_frame(tables, world, frame, i, lanes):

@@ -12,13 +12,23 @@ import numpy as np
 
 from mindrun.numbers.arithmetic import *
 from mindrun.sim.codes import AWAY, FAR, HALF_DIAGONAL, Tables
-from mindrun.sim.state import FIRST_LOOSE, HELD, ROBOT, WorldState
+from mindrun.sim.state import ROBOT, ROBOT_SOLIDS, WorldState
 from mindrun.sim.units import seldom, unit_where
 
 CLOSED_UNITS = 1e-6  # so much larger is everything here: what stands corner to corner leaves no way between
 SWIFT_SHARE, STRIDE_SHARE = 0.75, 0.5  # of a least half side: beyond which there are strides, and how far one may go
 MOST_STRIDES = 100  # in one tick; what time is left then is lost
 DEEPEST_SHARE = 0.5  # of the smaller's half side: so deep in one another come two that move
+
+
+def first_loose(tables):
+    """The number of the first loose solid."""
+    return ROBOT + ROBOT_SOLIDS * tables.world[0].robots
+
+
+def own_solid(robot):
+    """The solid of a robot, behind which stands that of what it holds."""
+    return ROBOT + ROBOT_SOLIDS * robot
 
 
 def within(x, y, angle):
@@ -165,31 +175,55 @@ def top_speed(motion, arm):
 
 @unit_where(seldom)
 def stride(tables: Tables, world: WorldState, lane: int) -> float:
-    """The seconds for which a lane may go on at once; infinite where nothing in it is swift."""
-    body, constants, held = world.body, tables.world[0], world.held[lane]
-    half, reach = min(constants.front, constants.side), constants.radius
-    arm = 0.0 if constants.is_round else reach
-    if held >= 0:
-        own, hold = size_of(world.things, held, lane) / 2, tables.things[held].hold
-        half, arm, reach = min(half, own), max(arm, hold), max(reach, hold + own)
-    (x, y), speed, longest = middle_of(body, lane), top_speed(motion_of(body, lane), arm), np.inf
-    if speed * constants.dt > SWIFT_SHARE * half:
-        longest = max(STRIDE_SHARE * half, room_around(tables, world, x, y, reach, -1, lane)) / speed
+    """The seconds for which a world may go on at once; infinite where nothing in it is swift."""
+    longest = np.inf
+    for number in range(tables.world[0].robots):
+        longest = min(longest, stride_of_robot(tables, world, number, lane))
     for i in range(len(tables.loose)):
-        longest = min(longest, stride_of(tables, world, i, x, y, reach, lane))
+        longest = min(longest, stride_of(tables, world, i, lane))
     return longest
 
 
-def stride_of(tables, world, i, x, y, reach, lane):
-    """The seconds for which loose thing i may go on at once beside a robot at (x, y) of radius `reach`."""
+def stride_of_robot(tables, world, number, lane):
+    """The seconds for which the robot with a number may go on at once; infinite where it is not swift."""
+    constants, own_lane = tables.world[0], lane + number
+    held, half, reach = world.held[own_lane], min(constants.front, constants.side), reach_of(tables, world, own_lane)
+    arm = 0.0 if constants.is_round else constants.radius
+    if held >= 0:
+        half, arm = min(half, size_of(world.things, held, own_lane) / 2), max(arm, tables.things[held].hold)
+    (x, y), speed = middle_of(world.body, own_lane), top_speed(motion_of(world.body, own_lane), arm)
+    if not speed * constants.dt > SWIFT_SHARE * half:
+        return np.inf
+    room = room_around(tables, world, x, y, reach, -1, lane)
+    return max(STRIDE_SHARE * half, min(room, room_beside(tables, world, x, y, reach, number, lane))) / speed
+
+
+def reach_of(tables, world, lane):
+    """The radius of a circle around the robot of a lane and what it holds."""
+    held, radius = world.held[lane], tables.world[0].radius
+    return radius if held < 0 else max(radius, tables.things[held].hold + size_of(world.things, held, lane) / 2)
+
+
+def stride_of(tables, world, i, lane):
+    """The seconds for which loose thing i may go on at once beside the robots of a world."""
     speed, half = speed_of_loose(tables, world, i, lane), loose_size(tables, world, i, lane) / 2
     extent = extent_of(tables, world, i, lane)
     if not speed * tables.world[0].dt > SWIFT_SHARE * half:
         return np.inf
-    its_x, its_y = loose_place(tables, world, i, lane)
-    room = room_around(tables, world, its_x, its_y, extent, i, lane)
-    room = min(room, (max(abs(its_x - x), abs(its_y - y)) - reach - extent) / 2)
-    return max(STRIDE_SHARE * half, room) / speed
+    x, y = loose_place(tables, world, i, lane)
+    room = room_around(tables, world, x, y, extent, i, lane)
+    return max(STRIDE_SHARE * half, min(room, room_beside(tables, world, x, y, extent, -1, lane))) / speed
+
+
+def room_beside(tables, world, x, y, extent, but, lane):
+    """Half of the gap between something of radius `extent` at a point and the nearest robot but number `but`."""
+    room = np.inf
+    for number in range(tables.world[0].robots):
+        if number != but:
+            its_x, its_y = middle_of(world.body, lane + number)
+            far = max(abs(its_x - x), abs(its_y - y)) - reach_of(tables, world, lane + number)
+            room = min(room, (far - extent) / 2)
+    return room
 
 
 def room_around(tables, world, x, y, extent, but, lane):
@@ -212,13 +246,15 @@ def room_around(tables, world, x, y, extent, but, lane):
 
 def note_begin(tables, world, solids, lane):
     """Note where everything that moves is as a tick begins, and half of its least side."""
-    robot, constants = solids[ROBOT], tables.world[0]
-    robot.begin.x, robot.begin.y = middle_of(world.body, lane)
-    robot.half = min(constants.front, constants.side)
-    if world.held[lane] >= 0:  # not yet in the claw, where it has just been taken
-        note_thing(world, solids[HELD], world.held[lane], lane)
+    constants = tables.world[0]
+    for number in range(constants.robots):
+        a, own_lane = own_solid(number), lane + number
+        solids[a].begin.x, solids[a].begin.y = middle_of(world.body, own_lane)
+        solids[a].half = min(constants.front, constants.side)
+        if world.held[own_lane] >= 0:  # not yet in the claw, where it has just been taken
+            note_thing(world, solids[a + 1], world.held[own_lane], own_lane)
     for i in range(len(tables.loose)):
-        note_thing(world, solids[FIRST_LOOSE + i], tables.loose[i].thing, lane)
+        note_thing(world, solids[first_loose(tables) + i], tables.loose[i].thing, lane)
 
 
 def note_thing(world, solid, thing, lane):
@@ -229,14 +265,15 @@ def note_thing(world, solid, thing, lane):
 
 def note_after(tables, world, solids, lane):
     """Note where everything that moves is after a step; NaN where nothing is held."""
-    robot, held = solids[ROBOT].after, solids[HELD].after
-    (robot.x, robot.y), held.x, held.y = middle_of(world.body, lane), np.nan, np.nan
-    if world.held[lane] >= 0:
-        hold = tables.things[world.held[lane]].hold
-        sine, cosine = sine_cosine(world.body[ANGLE, lane])
-        held.x, held.y = robot.x + cosine * hold, robot.y + sine * hold
+    for number in range(tables.world[0].robots):
+        own_lane, robot, held = lane + number, solids[own_solid(number)].after, solids[own_solid(number) + 1].after
+        (robot.x, robot.y), held.x, held.y = middle_of(world.body, own_lane), np.nan, np.nan
+        if world.held[own_lane] >= 0:
+            hold = tables.things[world.held[own_lane]].hold
+            sine, cosine = sine_cosine(world.body[ANGLE, own_lane])
+            held.x, held.y = robot.x + cosine * hold, robot.y + sine * hold
     for i in range(len(tables.loose)):
-        loose = solids[FIRST_LOOSE + i].after
+        loose = solids[first_loose(tables) + i].after
         loose.x, loose.y = loose_place(tables, world, i, lane)
 
 
@@ -245,9 +282,10 @@ def note_before(tables, world, solids, lane):
     note_after(tables, world, solids, lane)
     for a in range(ROBOT, len(solids)):
         solids[a].before.x, solids[a].before.y = solids[a].after.x, solids[a].after.y
-    solids[ROBOT].before_angle = world.body[ANGLE, lane]
+    for number in range(tables.world[0].robots):
+        solids[own_solid(number)].before_angle = world.body[ANGLE, lane + number]
     for i in range(len(tables.loose)):
-        solids[FIRST_LOOSE + i].before_angle = turn_of(world.loose, i, lane)
+        solids[first_loose(tables) + i].before_angle = turn_of(world.loose, i, lane)
 
 
 def hold_back(tables, world, solids, lane):
@@ -269,9 +307,9 @@ def passes(tables, world, solids, a, lane):
         return False
     if is_barred(world.boxes, tables.world[0], begin.x, begin.y, after.x, after.y, CLOSED_UNITS, lane):
         return True
-    for b in range(FIRST_LOOSE if a < FIRST_LOOSE else ROBOT, len(solids)):
+    for b in range(ROBOT, len(solids)):
         its_begin, its_after, its_half = solids[b].begin, solids[b].after, solids[b].half
-        if b != a and not np.isnan(its_after.x):
+        if solids[b].body != solids[a].body and not np.isnan(its_after.x):
             near = half + its_half - DEEPEST_SHARE * min(half, its_half)
             dx = after.x - begin.x - (its_after.x - its_begin.x)
             dy = after.y - begin.y - (its_after.y - its_begin.y)
@@ -292,11 +330,11 @@ def comes_nearer(x, y, dx, dy, near):
 
 def put_back(tables, world, solids, a, lane):
     """Put a mover, the robot with what it holds, back to its place before the step, without any speed."""
-    solid, body, i = solids[a], world.body, a - FIRST_LOOSE
+    solid, body, i = solids[a], world.body, a - first_loose(tables)
     if i < 0:
-        robot, held = solids[ROBOT], solids[HELD]
-        body[X, lane], body[Y, lane], body[ANGLE, lane] = robot.before.x, robot.before.y, robot.before_angle
-        body[SPEED_X, lane], body[SPEED_Y, lane], body[SPIN, lane] = 0.0, 0.0, 0.0
+        own_lane, robot, held = lane + solid.robot, solids[solid.body], solids[solid.body + 1]
+        body[X, own_lane], body[Y, own_lane], body[ANGLE, own_lane] = robot.before.x, robot.before.y, robot.before_angle
+        body[SPEED_X, own_lane], body[SPEED_Y, own_lane], body[SPIN, own_lane] = 0.0, 0.0, 0.0
         robot.after.x, robot.after.y = robot.before.x, robot.before.y
         held.after.x, held.after.y = held.before.x, held.before.y
         return

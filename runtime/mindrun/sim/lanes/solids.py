@@ -11,14 +11,14 @@ from mindrun.numbers.arithmetic import *
 from mindrun.sim import c_library
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE, Tables
 from mindrun.sim.lanes.loose import OF_LOOSE, SETTLED_TICKS, is_at_rest, mass_of, put_drift
-from mindrun.sim.lanes.solid import drift_of, loose_place, loose_size, turn_of
-from mindrun.sim.state import FIRST_LOOSE, FIXED, HELD, PLACE_ROWS, ROBOT, ContactState, WorldState
+from mindrun.sim.lanes.solid import drift_of, first_loose, loose_place, loose_size, own_solid, turn_of
+from mindrun.sim.state import FIXED, PLACE_ROWS, ROBOT, ContactState, WorldState
 from mindrun.sim.units import call_double
 
 
 def open_space(tables, world, contact, lane):
-    """Begin anew in a lane: nothing is remembered."""
-    constants, space, solids = tables.world[0], contact.space[lane], contact.solids[lane]
+    """Begin anew in a world: nothing is remembered."""
+    space, solids = contact.space[lane], contact.solids[lane]
     space.steps, space.pairs = 0, 0
     for i in range(contact.order.shape[1]):
         contact.order[lane, i] = i
@@ -26,19 +26,28 @@ def open_space(tables, world, contact, lane):
         solid = solids[a]
         solid.is_asleep, solid.made, solid.turned, solid.cosine, solid.sine = 0, 0.0, 0.0, 1.0, 0.0
         solid.bias.x, solid.bias.y, solid.bias.spin = 0.0, 0.0, 0.0
+        solid.body, solid.robot = a, -1
     solids[FIXED].friction = 1.0
-    solids[HELD].is_round, solids[HELD].friction = 1, FRICTION_COEFFICIENT
-    robot, x, y = solids[ROBOT], constants.front, constants.side
-    robot.is_round, robot.radius, robot.number = constants.is_round, constants.radius, constants.number
+    for number in range(tables.world[0].robots):
+        make_robot(tables, world, solids, number, lane + number)
+
+
+def make_robot(tables, world, solids, number, lane):
+    """Let two solids be those of the robot with a number, whose lane is given, and of what it holds."""
+    constants = tables.world[0]
+    robot, held, x, y = solids[own_solid(number)], solids[own_solid(number) + 1], constants.front, constants.side
+    held.is_round, held.friction = 1, FRICTION_COEFFICIENT
+    held.body, held.robot, robot.robot = own_solid(number), number, number
+    robot.is_round, robot.radius, robot.number = constants.is_round, constants.radius, constants.number + number
     robot.friction = world.numbers[constants.friction, lane]
     robot.mass_inv = world.numbers[constants.mass_inv, lane]
     robot.moment_inv = world.numbers[constants.moment_inv, lane]
     put_corners(robot.own_corners, -x, -y, x, y)
 
 
-def move_robot(tables, world, contact, seconds, share, lane):
-    """Move a lane's robot on with what it holds, and let its force act."""
-    robot, body, push, held = contact.solids[lane, ROBOT], world.body, world.push, world.held[lane]
+def move_robot(tables, world, robot, held_solid, seconds, share, lane):
+    """Move the robot of a lane on with what it holds, and let its force act."""
+    body, push, held = world.body, world.push, world.held[lane]
     speed = robot.velocity
     speed.x, speed.y, speed.spin = motion_of(body, lane)
     x, y, angle = pose_of(body, lane)
@@ -51,7 +60,8 @@ def move_robot(tables, world, contact, seconds, share, lane):
         turn(tables, robot, angle)
     put_shape(robot, robot.middle_x, robot.middle_y)
     if held >= 0:
-        put_held(tables, world, contact, held, size_of(world.things, held, lane) / 2, lane)
+        turn(tables, robot, angle)
+        put_held(tables, robot, held_solid, held, size_of(world.things, held, lane) / 2)
 
 
 def move(solid, x, y, angle, seconds):
@@ -70,7 +80,7 @@ def move_loose(
     """Move the loose things of a lane on that are awake with a share of their force, and wake what they come near."""
     loose = world.loose
     for i in range(len(tables.loose)):
-        solid = contact.solids[lane, FIRST_LOOSE + i]
+        solid = contact.solids[lane, first_loose(tables) + i]
         if solid.is_asleep:
             continue
         x, y = loose_place(tables, world, i, lane)
@@ -89,7 +99,7 @@ def move_loose(
             turn(tables, solid, angle)
         solid.turned = angle
         put_shape(solid, solid.middle_x, solid.middle_y)
-    wake(contact.solids[lane], world.held[lane] >= 0)
+    wake(world, contact.solids[lane], first_loose(tables), lane)
 
 
 def make(tables, world, solid, i, size, lane):
@@ -105,39 +115,45 @@ def make(tables, world, solid, i, size, lane):
     solid.friction = world.numbers[loose.friction, lane]
 
 
-def wake(solids, holds):
-    """Wake what is asleep where something awake comes near, and what that comes near."""
-    a = FIRST_LOOSE
+def wake(world, solids, first, lane):
+    """Wake loose solids, from number `first` on, where something awake comes near, and what these come near."""
+    a = first
     while a < len(solids):
         b = ROBOT
         while solids[a].is_asleep and b < len(solids):
-            if not solids[b].is_asleep and (b != HELD or holds) and overlap(solids[a], solids[b]):
-                solids[a].is_asleep, a = 0, FIRST_LOOSE - 1
+            if not solids[b].is_asleep and is_there(world, solids[b], b, lane) and overlap(solids[a], solids[b]):
+                solids[a].is_asleep, a = 0, first - 1
             b += 1
         a += 1
 
 
+def is_there(world, solid, a, lane):
+    """True unless solid `a` is of a claw that holds nothing."""
+    return solid.body == a or world.held[lane + solid.robot] >= 0
+
+
 def gather(tables, world, contact, lane):
     """Write down what is awake, in the order in which Chipmunk's hash has it."""
-    awake, constants, held = contact.awake[lane], tables.world[0], world.held[lane]
-    is_held_first = held >= 0 and tables.things[held].turn < constants.turn
-    count = 0
-    if is_held_first:
-        awake[count], count = HELD, count + 1
-    count = gather_loose(tables, contact, count, True, lane)
-    awake[count], count = ROBOT, count + 1
-    if held >= 0 and not is_held_first:
-        awake[count], count = HELD, count + 1
-    contact.space[lane].awake = gather_loose(tables, contact, count, False, lane)
+    solids, awake, count = contact.solids[lane], contact.awake[lane], 0
+    for a in range(ROBOT, len(solids)):
+        if not solids[a].is_asleep and is_there(world, solids[a], a, lane):
+            turn, k = turn_of_hash(tables, world, solids[a], a, lane), count
+            while k > 0 and turn_of_hash(tables, world, solids[awake[k - 1]], awake[k - 1], lane) > turn:
+                awake[k], k = awake[k - 1], k - 1
+            awake[k], count = a, count + 1
+    contact.space[lane].awake = count
 
 
-def gather_loose(tables, contact, count, is_before, lane):
-    """Write down the loose things that are awake and that the hash has before the robot, or after it."""
-    awake, turn = contact.awake[lane], tables.world[0].turn
-    for i in range(len(tables.loose)):
-        if (tables.loose[i].turn < turn) == is_before and not contact.solids[lane, FIRST_LOOSE + i].is_asleep:
-            awake[count], count = FIRST_LOOSE + i, count + 1
-    return count
+def turn_of_hash(tables, world, solid, a, lane):
+    """The place of solid `a` in the order of the hash."""
+    constants = tables.world[0]
+    if solid.robot < 0:
+        number = tables.loose[a - first_loose(tables)].number
+    elif solid.body == a:
+        number = constants.number + solid.robot
+    else:
+        number = tables.things[world.held[lane + solid.robot]].number + solid.robot * constants.items
+    return number % constants.hash_size
 
 
 def take_robot(world, robot, lane):
@@ -151,7 +167,7 @@ def take_robot(world, robot, lane):
 def take_loose(tables: Tables, world: WorldState, contact: ContactState, lane: int) -> None:
     """Take the places and motions of the loose things that were awake; what has moved has not settled."""
     for i in range(len(tables.loose)):
-        solid, thing = contact.solids[lane, FIRST_LOOSE + i], tables.loose[i].thing
+        solid, thing = contact.solids[lane, first_loose(tables) + i], tables.loose[i].thing
         if solid.is_asleep:
             continue
         x, y, angle, speed = solid.middle_x, solid.middle_y, solid.turned, solid.velocity
@@ -210,10 +226,9 @@ def put_shape(solid, x, y):
     solid.left, solid.right, solid.low, solid.high = left, right, low, high
 
 
-def put_held(tables, world, contact, thing, radius, lane):
-    """Write the circle of a thing in the claw, which turns with the robot."""
-    robot, held, hold = contact.solids[lane, ROBOT], contact.solids[lane, HELD], tables.things[thing].hold
-    turn(tables, robot, world.body[ANGLE, lane])
+def put_held(tables, robot, held, thing, radius):
+    """Write the circle of a thing in the claw of a robot, which turns with it."""
+    hold = tables.things[thing].hold
     held.radius, held.middle_x, held.middle_y = radius, robot.middle_x, robot.middle_y
     put_shape(held, robot.cosine * hold + robot.middle_x, robot.sine * hold + robot.middle_y)
 

@@ -6,18 +6,16 @@ Walkers touch nothing: they are plain arithmetic, too.
 import numpy as np
 
 from mindrun.numbers.arithmetic import *
-from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PERSISTENCE_TICKS, PUSH, STEERING, TORQUE, Tables
+from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PUSH, STEERING, TORQUE, Tables
 from mindrun.sim.lanes.act import carry
 from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_down, wanted_way
 from mindrun.sim.lanes.placement import at_drawn
 from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
+from mindrun.sim.lanes.sharing import CONTACT_MARGIN_UNITS, CONTACT_TICKS, join, share
 from mindrun.sim.lanes.solid import CLOSED_UNITS, find_swift, is_barred, is_free, within
 from mindrun.sim.lanes.strides import make_tick
 from mindrun.sim.state import State, WorldState
 from mindrun.sim.units import unit, unit_where
-
-CONTACT_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here
-CONTACT_TICKS = PERSISTENCE_TICKS + 2  # for which Chipmunk goes on with a lane in which something could have touched
 
 
 @unit
@@ -25,18 +23,18 @@ def step(tables: Tables, state: State, lanes: int) -> None:
     """Damp, push and move the robots and the loose things; then headings, held items and walkers follow."""
     world, contact, constants = state.world, state.contact, tables.world[0]
     thrust(tables, world, lanes)
-    for lane in range(lanes if len(tables.loose) > 0 else 0):
+    for lane in range(0, lanes if len(tables.loose) > 0 else 0, constants.robots):
         if world.restless[lane] > 0:
             slow_down(tables, world, contact, lane)
     find_near(tables, world, state.sight, contact, lanes)
+    if len(tables.mates) > 0:
+        join(tables, world, contact, lanes)
     fly(world, contact.near, constants, lanes)
-    touching = contact.touching
     for lane in range(lanes):
-        touching[lane] <<= 1  # bit 0 this tick, bit 1 the tick before
-        touching[lane] &= 3
+        contact.touching[lane] = contact.touching[lane] << 1 & 3  # bit 0 this tick, bit 1 the tick before
+    for lane in range(0, lanes, constants.robots):
         if contact.near[lane] > 0:
-            if make_tick(tables, world, contact, lane) > 0:
-                touching[lane] |= 1
+            make_tick(tables, world, contact, lane)
         elif world.restless[lane] > 0:
             slide(tables, world, lane)
     for lane in range(lanes):
@@ -44,6 +42,8 @@ def step(tables: Tables, state: State, lanes: int) -> None:
     carry(world, tables.things, lanes)
     if len(tables.walkers) > 0:
         walk(tables, world, lanes)
+    if len(tables.mates) > 0:
+        share(tables, world, lanes)
 
 
 def thrust(tables, world, lanes):
@@ -179,7 +179,7 @@ def approach(box, body, dt, gap, lanes):
 def walk(tables: Tables, world: WorldState, lanes: int) -> None:
     """Let every walker that has not vanished take its step."""
     for i in range(len(tables.walkers)):
-        for lane in range(lanes):
+        for lane in range(0, lanes, tables.world[0].robots):
             x, y = place_of(world.things, tables.walkers[i].thing, lane)
             if np.isnan(x):
                 continue
@@ -192,7 +192,7 @@ def walk(tables: Tables, world: WorldState, lanes: int) -> None:
 def chase(tables, world, i, x, y, lane):
     """Step straight towards the nearest that a walker seeks, or away from what it flees; True if it could."""
     walker = tables.walkers[i]
-    dx, dy = wanted_way(world, walker, x, y, lane)
+    dx, dy = wanted_way(world, tables.world[0].robots, walker, x, y, lane)
     if np.isnan(dx) or (dx == 0.0 and dy == 0.0):
         return not np.isnan(dx)
     step, half = world.numbers[walker.step, lane], size_of(world.things, walker.thing, lane) / 2

@@ -14,9 +14,9 @@ from mindrun.numbers.arithmetic import *
 from mindrun.sim.c_library import POWER
 from mindrun.sim.codes import Tables
 from mindrun.sim.lanes.meeting import forget_old, let_go, touch_fixed, touch_movers
-from mindrun.sim.lanes.solid import MOST_STRIDES, hold_back, note_before, note_begin, stride, within
+from mindrun.sim.lanes.solid import MOST_STRIDES, hold_back, note_before, note_begin, own_solid, stride, within
 from mindrun.sim.lanes.solids import gather, move_loose, move_robot, open_space, take_loose, take_robot
-from mindrun.sim.state import ROBOT, ContactState, WorldState
+from mindrun.sim.state import ContactState, WorldState
 from mindrun.sim.units import call_double, unit
 
 SOLVER_ITERATIONS = 8
@@ -128,7 +128,7 @@ def bounce(contact, friction, speed_along, speed_across):
 
 @unit
 def make_tick(tables: Tables, world: WorldState, contact: ContactState, lane: int) -> int:
-    """Make one tick of a lane; return how often its robot has run into what never moves."""
+    """Make one tick of a world, whose first lane is given; return how often its robots run into what never moves."""
     dt, is_swift, touching = tables.world[0].dt, contact.swift[lane] > 0, 0
     contact.swift[lane] = 0
     left = dt
@@ -137,11 +137,11 @@ def make_tick(tables: Tables, world: WorldState, contact: ContactState, lane: in
         most = stride(tables, world, lane) if is_swift else dt
         is_last = most >= left or number == MOST_STRIDES - 1
         seconds = min(most, left) if is_last else min(most, left / 2)
-        if is_swift and not glides(world.body, seconds, lane):
+        if is_swift and not all_glide(world.body, tables.world[0].robots, seconds, lane):
             break
         note_before(tables, world, contact.solids[lane], lane)
         touching += make_step(tables, world, contact, seconds, dt / seconds if is_last else 0.0, lane)
-        could_pass = touching > 0 or len(tables.loose) > 0
+        could_pass = touching > 0 or len(tables.loose) > 0 or len(tables.mates) > 0
         if could_pass:
             hold_back(tables, world, contact.solids[lane], lane)
         contact.last[lane] = seconds if could_pass else np.inf
@@ -149,6 +149,14 @@ def make_tick(tables: Tables, world: WorldState, contact: ContactState, lane: in
         if is_last:
             break
     return touching
+
+
+def all_glide(body, robots, seconds, lane):
+    """True if all robots of a world stay where worlds are."""
+    gliding = 0
+    for number in range(robots):
+        gliding += 1 if glides(body, seconds, lane + number) else 0
+    return gliding == robots
 
 
 def glides(body, seconds, lane):
@@ -162,18 +170,22 @@ def glides(body, seconds, lane):
 
 
 def make_step(tables, world, contact, seconds, share, lane):
-    """Move a lane on by some seconds with a share of its force; return how often its robot touches what never moves."""
-    space = contact.space[lane]
+    """Move a world on by some seconds with a share of its forces; return how often robots touch what never moves."""
+    space, solids, robots = contact.space[lane], contact.solids[lane], tables.world[0].robots
     if space.seconds == 0.0 or seconds > contact.last[lane]:
         open_space(tables, world, contact, lane)  # what is remembered are impulses, of which more would act
     space.steps += 1
-    space.run_into, space.in_claw = 0, world.held[lane]
+    for number in range(robots):
+        its = contact.space[lane + number]
+        its.run_into, its.met, its.in_claw = 0, 0, world.held[lane + number]
     forget_old(space, contact.pairs[lane], contact.order[lane])
-    move_robot(tables, world, contact, seconds, share, lane)
+    for number in range(robots):
+        a = own_solid(number)
+        move_robot(tables, world, solids[a], solids[a + 1], seconds, share, lane + number)
     if len(tables.loose) > 0:
         move_loose(tables, world, contact, seconds, share, lane)
     gather(tables, world, contact, lane)
-    if len(tables.loose) > 0:
+    if len(tables.loose) > 0 or len(tables.mates) > 0:
         touch_movers(tables, world, contact, lane)
     touch_fixed(tables, world, contact, lane)
     let_go(tables, world, contact, lane)
@@ -181,8 +193,19 @@ def make_step(tables, world, contact, seconds, share, lane):
         space.take_back = 1.0 - call_double(tables.library[POWER], COLLISION_BIAS, seconds)
     if space.touching > 0:
         solve(contact, tables.world[0].slop, seconds, lane)
-    take_robot(world, contact.solids[lane, ROBOT], lane)
+    run_into = 0
+    for number in range(robots):
+        take_robot(world, solids[own_solid(number)], lane + number)
+        run_into += note_touch(contact, lane + number)
     if len(tables.loose) > 0:
         take_loose(tables, world, contact, lane)
     space.seconds = seconds
+    return run_into
+
+
+def note_touch(contact, lane):
+    """Set the bits of what a robot touches in this tick; return how often it is what never moves."""
+    space = contact.space[lane]
+    contact.touching[lane] |= 1 if space.run_into > 0 else 0
+    contact.mates[0, lane] |= space.met
     return space.run_into

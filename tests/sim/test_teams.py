@@ -1,0 +1,88 @@
+"""Several robots in one world: their contacts are Chipmunk's, and who is which of them changes nothing but names."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pymunk
+import pytest
+from mindrun.graph.policy import Policy
+from mindrun.numbers.trigonometry import cosine, sine
+from mindrun.sim.rollout import Rollout, Tile
+from mindrun.sim.task_rows import rows_by_name
+
+from mindlang.physics_check import ROBOT_FRICTION, add, arena, disc, drive
+from tests.draws import first
+from tests.sim.minds import DRIFTER, compile_text
+
+ROCKS, SCATTERED = "grid 10 size 2 to 4 jitter 1", "grid 7 size 2 to 3 jitter 1"
+TICKS = 5_000
+TOGETHER = (  # drawn to each other with one wheel, to objects with the other
+    DRIFTER.replace("(object_bearing - 0.5) * quick", "(mate_bearing - 0.5) * quick")
+    .replace("skill Drift", "sensor mate_bearing is bearing of mate\nskill Drift")
+    .replace("  reads odd", "  reads mate_bearing\n  reads odd")
+)
+
+
+def drifters(mates: int, rocks: str, items: int, more: str = "") -> Rollout:
+    """Robots that drift about in an arena, close their claws now and then, and push each other."""
+    task = f"""task Drift in arena size 40
+  contains mate is robot count {mates}
+  contains object is item size 1 count {items}
+  contains rock is obstacle {rocks}
+  lasts {TICKS} ticks
+  rewards 1 on collision
+  rewards 1 on collision with mate
+{more}"""
+    return Rollout(Policy(compile_text(TOGETHER + task), {}), "Drift", "Drift", interrupt=False)
+
+
+def ticks(rollout: Rollout, seed: int) -> Iterator[Tile]:
+    """The tile of a run as it begins, and after each tick: a lane for each robot."""
+    tile, jobs = rollout.tile(1), rollout.jobs(np.zeros((1, 0), np.float32), np.array([seed], np.uint64))
+    rollout.fill(tile, jobs)
+    yield tile
+    for _ in range(TICKS - 1):
+        rollout.advance(tile, jobs, 1)
+        yield tile
+
+
+class PlainTeam:
+    """The paper's robots in one Space, with what each claw may hold."""
+
+    def __init__(self, poses: np.ndarray, boxes: np.ndarray, half: float, items: range) -> None:
+        self.space = arena(boxes, half)
+        self.bodies = [disc(self.space, pose) for pose in poses]
+        self.items = [{item: pymunk.Circle(body, 0.5, (1.5, 0)) for item in items} for body in self.bodies]
+        for item in (item for its in self.items for item in its.values()):
+            add(self.space, item, ROBOT_FRICTION)
+
+    def step(self, commands: np.ndarray, angles: np.ndarray, held: np.ndarray) -> np.ndarray:
+        """The poses and velocities [robots, 6] after a tick."""
+        for body, items, (left, right), angle, thing in zip(
+            self.bodies, self.items, commands, angles, held, strict=True
+        ):
+            for number, item in items.items():
+                item.sensor = number != thing
+            drive(body, float(left), float(right), cosine(angle), sine(angle))
+        self.space.step(1 / 60)
+        return np.array([(*each.position, each.angle, *each.velocity, each.angular_velocity) for each in self.bodies])
+
+
+@pytest.mark.parametrize("rocks", [ROCKS, SCATTERED])
+@pytest.mark.parametrize("mates", [1, 3, 7])
+@pytest.mark.parametrize("seed", first(2, range(12)))
+def test_robots_that_push_each_other_equal_plain_pymunk(mates: int, rocks: str, seed: int) -> None:
+    rollout = drifters(mates, rocks, 4)
+    run, robots = ticks(rollout, seed), 1 + mates
+    world = (tile := next(run)).state.world
+    before = world.body[:, :robots].T.copy()
+    boxes = world.boxes[0].reshape(-1, 4)
+    plain, met, carried = PlainTeam(before[:, :3], boxes, 20.0, rows_by_name(rollout.task)["object"]), 0, 0
+    for number, tile in enumerate(run):
+        found = plain.step(world.acting[:2, :robots].T, before[:, 2], world.held[:robots])
+        before = world.body[:, :robots].T.copy()
+        assert np.array_equal(found, before), f"tick {number}"
+        met += int((tile.state.contact.mates[0, :robots] != 0).sum())
+        carried += int((world.held[1:robots] >= 0).sum())
+    assert met or mates < 7
+    assert carried or mates < 7
