@@ -120,7 +120,7 @@ WORLD = _columns(
 
 # What is solid: its sides, where it is, how it is turned, for which size it has been made, how much it weighs, half of
 # its least side. Of a circle the first corner is its middle. `bias` is the velocity that parts what overlaps. It moves
-# with the solid `body`, and is of a `robot`, by its number, or of none, −1.
+# with the solid `body`, and is of a `robot`, by its number, or of none, −1; `turn` is its place in the hash.
 POINT, MOTION = _columns(f8="x y"), _columns(f8="x y spin")
 SOLID = _columns(
     ("velocity", MOTION),
@@ -130,7 +130,7 @@ SOLID = _columns(
     ("begin", POINT),  # where it was as the tick began, before this step and after it (lanes/solid)
     ("before", POINT),
     ("after", POINT),
-    i8="is_round is_asleep number body robot",
+    i8="is_round is_asleep number body robot turn",
     f8="left right low high middle_x middle_y turned cosine sine radius made friction mass_inv moment_inv half "
     "before_angle",
 )

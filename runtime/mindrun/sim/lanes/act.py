@@ -116,13 +116,15 @@ def grip(tables: Tables, state: State, i: int, lanes: int) -> None:
     Of several robots the nearest to an item has it, of equally near ones the first.
     """
     world, kinds, commands, robots = state.world, tables.things, state.world.acting[i], tables.world[0].robots
-    held, things = world.held, world.things
+    held, things, changing = world.held, world.things, 0
     for lane in range(lanes):
+        changing += (commands[lane] > HALF) != (held[lane] >= 0)
+    for lane in range(lanes if changing > 0 else 0):
         if commands[lane] <= HALF and held[lane] >= 0:
             x, y = place_of(things, held[lane], lane)
             put_thing(things, held[lane], x, y, lane - lane % robots)
             held[lane] = -1
-    for home in range(0, lanes, robots):
+    for home in range(0, lanes if changing > 0 else 0, robots):
         wanting = 0
         for lane in range(home, home + robots):
             wanting += 1 if commands[lane] > HALF and held[lane] < 0 else 0

@@ -308,8 +308,8 @@ def passes(tables, world, solids, a, lane):
     if is_barred(world.boxes, tables.world[0], begin.x, begin.y, after.x, after.y, CLOSED_UNITS, lane):
         return True
     for b in range(ROBOT, len(solids)):
-        its_begin, its_after, its_half = solids[b].begin, solids[b].after, solids[b].half
-        if solids[b].body != solids[a].body and not np.isnan(its_after.x):
+        if solids[b].body != solids[a].body and not np.isnan(solids[b].after.x):
+            its_begin, its_after, its_half = solids[b].begin, solids[b].after, solids[b].half
             near = half + its_half - DEEPEST_SHARE * min(half, its_half)
             dx = after.x - begin.x - (its_after.x - its_begin.x)
             dy = after.y - begin.y - (its_after.y - its_begin.y)

@@ -27,6 +27,8 @@ def open_space(tables, world, contact, lane):
         solid.is_asleep, solid.made, solid.turned, solid.cosine, solid.sine = 0, 0.0, 0.0, 1.0, 0.0
         solid.bias.x, solid.bias.y, solid.bias.spin = 0.0, 0.0, 0.0
         solid.body, solid.robot = a, -1
+    for i in range(len(tables.loose)):
+        solids[first_loose(tables) + i].turn = tables.loose[i].number % tables.world[0].hash_size
     solids[FIXED].friction = 1.0
     for number in range(tables.world[0].robots):
         make_robot(tables, world, solids, number, lane + number)
@@ -38,6 +40,7 @@ def make_robot(tables, world, solids, number, lane):
     robot, held, x, y = solids[own_solid(number)], solids[own_solid(number) + 1], constants.front, constants.side
     held.is_round, held.friction = 1, FRICTION_COEFFICIENT
     held.body, held.robot, robot.robot = own_solid(number), number, number
+    robot.turn = (constants.number + number) % constants.hash_size
     robot.is_round, robot.radius, robot.number = constants.is_round, constants.radius, constants.number + number
     robot.friction = world.numbers[constants.friction, lane]
     robot.mass_inv = world.numbers[constants.mass_inv, lane]
@@ -62,6 +65,8 @@ def move_robot(tables, world, robot, held_solid, seconds, share, lane):
     if held >= 0:
         turn(tables, robot, angle)
         put_held(tables, robot, held_solid, held, size_of(world.things, held, lane) / 2)
+        number = tables.things[held].number + held_solid.robot * tables.world[0].items
+        held_solid.turn = number % tables.world[0].hash_size
 
 
 def move(solid, x, y, angle, seconds):
@@ -132,28 +137,16 @@ def is_there(world, solid, a, lane):
     return solid.body == a or world.held[lane + solid.robot] >= 0
 
 
-def gather(tables, world, contact, lane):
+def gather(world, contact, lane):
     """Write down what is awake, in the order in which Chipmunk's hash has it."""
     solids, awake, count = contact.solids[lane], contact.awake[lane], 0
     for a in range(ROBOT, len(solids)):
         if not solids[a].is_asleep and is_there(world, solids[a], a, lane):
-            turn, k = turn_of_hash(tables, world, solids[a], a, lane), count
-            while k > 0 and turn_of_hash(tables, world, solids[awake[k - 1]], awake[k - 1], lane) > turn:
+            k = count
+            while k > 0 and solids[awake[k - 1]].turn > solids[a].turn:
                 awake[k], k = awake[k - 1], k - 1
             awake[k], count = a, count + 1
     contact.space[lane].awake = count
-
-
-def turn_of_hash(tables, world, solid, a, lane):
-    """The place of solid `a` in the order of the hash."""
-    constants = tables.world[0]
-    if solid.robot < 0:
-        number = tables.loose[a - first_loose(tables)].number
-    elif solid.body == a:
-        number = constants.number + solid.robot
-    else:
-        number = tables.things[world.held[lane + solid.robot]].number + solid.robot * constants.items
-    return number % constants.hash_size
 
 
 def take_robot(world, robot, lane):

@@ -184,7 +184,7 @@ def make_step(tables, world, contact, seconds, share, lane):
         move_robot(tables, world, solids[a], solids[a + 1], seconds, share, lane + number)
     if len(tables.loose) > 0:
         move_loose(tables, world, contact, seconds, share, lane)
-    gather(tables, world, contact, lane)
+    gather(world, contact, lane)
     if len(tables.loose) > 0 or len(tables.mates) > 0:
         touch_movers(tables, world, contact, lane)
     touch_fixed(tables, world, contact, lane)
