@@ -120,7 +120,7 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
     options = 0
     loose, walkers, zones = count(), count(), [thing.kind for thing in task.things if thing.kind.takes_items]
     zones_stay = all(outcome == STAYS for zone in zones for outcome in zone.outcomes.values())
-    first, own = {name: found.start for name, found in rows_by_name(task).items()}, robot_rows(task)[0]
+    first, first_robot = {name: found.start for name, found in rows_by_name(task).items()}, robot_rows(task)[0]
     numbers = hash_numbers(task).things
     for number, thing in enumerate(things_of(task)):
         kind, size, copy = thing.kind, thing.kind.size, number - first[thing.name]
@@ -135,7 +135,7 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
         row: dict[str, float] = {
             "kind": codes.THING_CODES[names()[type(kind)]], "first": size.first, "last": size.last,
             "by": size.by or 0.0, "drawn": size.by is None and size.first != size.last, "low": low, "high": high,
-            "hold": graph.body.front + kind.largest / 2, "is_fixed": (bool(kind.places) or is_drawn) and number != own,
+            "hold": graph.body.front + kind.largest / 2, "is_fixed": (bool(kind.places) or is_drawn) and number != first_robot,
             "x": x, "y": y,
             "is_round": kind.is_round and not (kind.is_robot and graph.body.outline),
             "is_area": kind.is_area, "is_goal": thing.name in never,
