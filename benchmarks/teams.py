@@ -1,8 +1,8 @@
 """What several robots in one world cost: python benchmarks/teams.py [--robots 1 2 4 8 16].
 
-The hierarchy of examples/collect/best.mind in so many bodies, with as many objects as robots and with one for all:
-robot-ticks of a CPU second beside those of one robot, in turns; and what each delivers and runs into, on the same
-layouts, in 30,000 ticks.
+The hierarchy of examples/collect/best.mind in so many bodies: robot-ticks of a CPU second with one object beside those
+of one robot, in turns; and what each delivers and runs into in 30,000 ticks, on the same layouts, with one object for
+all and with as many as robots.
 """
 
 import argparse
@@ -76,11 +76,11 @@ def main() -> None:
     parser.add_argument("--layouts", type=int, default=40)
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
-    teams = {robots: team(robots, robots) for robots in options.robots}
+    teams = {robots: team(robots, 1) for robots in options.robots}
     speed = rates(teams)
     rows = []
     for robots, rollout in teams.items():
-        for objects, runs in ((robots, rollout), (1, team(robots, 1))):
+        for objects, runs in ((1, rollout), (robots, team(robots, robots))):
             found = outcomes(runs, robots, options.layouts)
             rows.append({"robots": robots, "objects": objects, "rate": speed[robots], **found})
             if not options.json:
