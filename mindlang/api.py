@@ -165,6 +165,7 @@ class Mind(ShortRepr):
         """Many runs of a task on layouts that `seed` draws: each mean with its standard error, as `mindc bench --json`.
 
         `count_…` is of the events that the task counts, `score_…` of the rewards; `mind.trace` repeats `best_seed`.
+        Of several robots `roles` says who does what.
 
         >>> found = mind.bench("Collect", runs=20)
         >>> found["runs"], found["count_mean"]

@@ -106,8 +106,8 @@ def by_chance(roles: Roles, skills: int, random: np.random.Generator) -> float:
     To shuffle them in each tick would say less: robots that are all alike keep a role for a while, and look divided.
     """
     pieces = [times_of(piece, skills) for piece in np.array_split(roles, PIECES)]
-    shuffled = [sum(map(random.permutation, pieces)) for _ in range(SHUFFLES)]
-    return sum(division_of_labour(times) or 0.0 for times in shuffled) / SHUFFLES
+    shuffled = [np.sum([*map(random.permutation, pieces)], axis=0) for _ in range(SHUFFLES)]
+    return float(np.mean([division_of_labour(times) or 0.0 for times in shuffled]))
 
 
 def roles_data(rollout: Rollout, master: str, seeds: Sequence[int]) -> dict[str, Any]:
