@@ -21,11 +21,11 @@ from mindlang.run.setup import NO_GENOME
 from mindlang.run.summary import aligned, shortened
 
 MOST_ROBOT_TICKS, MOST_RUNS = 4_000_000, 200  # of many runs: two seconds or so
-PIECES, SHUFFLES = 10, 20  # of a run whose robots are shuffled, and how often they are
-NOBODY = -1
+CHANCE_PIECES, CHANCE_SHUFFLES = 10, 20  # of a run whose robots are shuffled, and how often they are
+NO_ROLE = -1
 MOST_ROWS, MOST_COLUMNS, ROOM_COLUMNS = 16, 6, 64  # of a table; for names, in a terminal of 80
 LEAST_SHARE = 0.005  # that is shown
-Roles = NDArray[np.int16]  # [ticks, robots]: a place among the skills that are compared, or NOBODY
+Roles = NDArray[np.int16]  # [ticks, robots]: a place among the skills that are compared, or NO_ROLE
 Times = NDArray[np.int64]  # [robots, skills]: ticks
 
 
@@ -55,20 +55,20 @@ def _is_always(edge: Edge) -> bool:
 
 def roles_of(rollout: Rollout, skills: Sequence[int], seeds: Sequence[int]) -> list[Roles]:
     """The role of each robot in each tick of the runs of these seeds, which are made again: the skill that has the most
-    influence, of equals the first; NOBODY where none has any.
+    influence, of equals the first; NO_ROLE where none has any.
     """
     robots, rows = 1 + len(robot_rows(rollout.task)), [*skills]
     jobs = rollout.jobs(NO_GENOME, np.array(seeds, np.uint64))
     tile = rollout.tile(max(1, min(len(seeds), rollout.lanes // robots)))
     rollout.fill(tile, jobs)
     mind, world, run = tile.state.mind, tile.state.world, tile.state.run
-    roles = np.full((len(seeds), int(jobs.most[0]), robots), NOBODY, np.int16)
+    roles = np.full((len(seeds), int(jobs.most[0]), robots), NO_ROLE, np.int16)
     while lanes := int(jobs.lanes[0]):
         rollout.observe(tile, jobs)
         before(rollout.tables, tile.state, jobs)
         rollout.think(tile, jobs, 0, len(rollout.tables.skills))
         influence, first = mind.influence[rows, :lanes], slice(0, lanes, robots)
-        role = np.where(influence.max(axis=0) > 0, influence.argmax(axis=0), NOBODY)
+        role = np.where(influence.max(axis=0) > 0, influence.argmax(axis=0), NO_ROLE)
         roles[run.job[first], world.tick[first]] = role.reshape(-1, robots)
         rollout.conclude(tile, jobs)
     return [each[:ticks] for each, ticks in zip(roles, jobs.ticks.tolist(), strict=True)]
@@ -76,7 +76,7 @@ def roles_of(rollout: Rollout, skills: Sequence[int], seeds: Sequence[int]) -> l
 
 def times_of(roles: Roles, skills: int) -> Times:
     """In how many ticks each robot had each of so many skills as its role."""
-    return np.array([np.bincount(own[own != NOBODY], minlength=skills) for own in roles.T])
+    return np.array([np.bincount(own[own != NO_ROLE], minlength=skills) for own in roles.T])
 
 
 def division_of_labour(times: Times) -> float | None:
@@ -100,13 +100,13 @@ def _entropy(times: NDArray[np.integer]) -> float:
 
 
 def by_chance(roles: Roles, skills: int, random: np.random.Generator) -> float:
-    """The division of labour of a run in which several skills are roles, after it is cut into PIECES and the robots are
+    """The division of labour of a run in which several skills are roles, after it is cut into CHANCE_PIECES and the robots are
     shuffled in each: what is left where nobody keeps a role for longer than a piece. The mean of many shuffles.
 
     To shuffle them in each tick would say less: robots that are all alike keep a role for a while, and look divided.
     """
-    pieces = [times_of(piece, skills) for piece in np.array_split(roles, PIECES)]
-    shuffled = [np.sum([*map(random.permutation, pieces)], axis=0) for _ in range(SHUFFLES)]
+    pieces = [times_of(piece, skills) for piece in np.array_split(roles, CHANCE_PIECES)]
+    shuffled = [np.sum([*map(random.permutation, pieces)], axis=0) for _ in range(CHANCE_SHUFFLES)]
     return float(np.mean([division_of_labour(times) or 0.0 for times in shuffled]))
 
 

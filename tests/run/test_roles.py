@@ -16,7 +16,7 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import joined, trace
 
 import mindlang
-from mindlang.run.roles import PIECES, by_chance, compared_skills, division_of_labour, roles_of, times_of
+from mindlang.run.roles import CHANCE_PIECES, by_chance, compared_skills, division_of_labour, roles_of, times_of
 from tests.calling import Call
 from tests.sim.minds import compile_text
 
@@ -92,7 +92,7 @@ def test_specialists_divide_all_and_robots_alike_nothing(roles: list[int], ticks
 @pytest.mark.parametrize("robots", [2, 5])
 def test_robots_that_are_alike_and_keep_a_role_for_a_while_divide_as_much_as_by_chance(robots: int) -> None:
     random = np.random.default_rng(1)
-    runs = [random.integers(-1, 3, (PIECES, robots), np.int16).repeat(7, axis=0) for _ in range(300)]
+    runs = [random.integers(-1, 3, (CHANCE_PIECES, robots), np.int16).repeat(7, axis=0) for _ in range(300)]
     divided = [(division_of_labour(times_of(roles, 3)) or 0.0) - by_chance(roles, 3, random) for roles in runs]
     assert abs(np.mean(divided)) < 4 * np.std(divided) / len(runs) ** 0.5
     specialists = (np.arange(robots) % 2 * np.ones((1000, 1))).astype(np.int16)
