@@ -12,7 +12,7 @@ import numpy as np
 from mindrun.numbers.arrays import Array
 from mindrun.sim.arrays import Block, table
 
-PUSH, STEERING, GRIPPER, IDLE, SERVO = range(5)
+PUSH, STEERING, GRIPPER, IDLE, SERVO, SIGNAL = range(6)
 ITEM, ZONE, POWER, BOX, BALL, WALKER, OTHER_ROBOT = range(7)
 STAYS, MOVES, VANISHES = range(3)
 PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE, ITS_REWARD, APART, DRAWN_NUMBER, TALLIED, TIME = range(10)
@@ -31,7 +31,7 @@ FORCE, TORQUE, FORCE_X, FORCE_Y, FORCE_ASIDE, PUSH_ROWS = range(6)  # rows of wh
 
 ACTUATOR_CODES = {
     "wheel": PUSH, "motor": PUSH, "thruster": PUSH, "steering": STEERING, "gripper": GRIPPER,
-    "servo": SERVO, "lamp": IDLE, "action": IDLE, "choice": IDLE,
+    "servo": SERVO, "signal": SIGNAL, "lamp": IDLE, "action": IDLE, "choice": IDLE,
 }  # fmt: skip
 THING_CODES = {
     "item": ITEM, "zone": ZONE, "power": POWER, "box": BOX, "ball": BALL, "walker": WALKER, "robot": OTHER_ROBOT,
@@ -99,7 +99,7 @@ THING = _columns(
     f8="first last by low high hold x y left right below above",
 )
 LOOSE = _columns(i8="thing is_round density friction slower number step thrust after afters aim", f8="range")
-MATE = _columns(i8="thing")
+MATE = _columns(i8="thing master")
 WALKING = _columns(i8="thing way ways copy is_anywhere is_drawn step turn after afters aim", f8="range")
 WAY = _columns(i8="first places")
 CORNER = _columns(i8="next x_row y_row", f8="x y")

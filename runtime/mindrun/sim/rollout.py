@@ -70,7 +70,7 @@ class Rollout:
             said = f"{task} is in the environment {name}, which cannot be simulated otherwise"
             raise MindError(said, "mindc run, bench, train and view step it.")
         self.is_one_world = is_one_world(graph, self.task, master)
-        self.procedures = Procedures(graph, master, procedures)
+        self.procedures = Procedures(graph, self.task, master, procedures)
         self.interrupt, self.workers, self.lanes = interrupt, workers, lanes
         named, learners = {skill.name: skill for skill in graph.skills}, [*dict.fromkeys(learners)]
         self.learners = tuple(named[name] for name in learners)

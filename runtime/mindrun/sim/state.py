@@ -54,6 +54,7 @@ class WorldState(Block):
     drive: Array = rows("loose", PLACE_ROWS)  # the force that each loose thing drives itself with
     acting: Array = rows("actuators", kind=F4)  # the commands as they act, after noise and failures
     grip: Array = rows("actuators")  # the share of its force that each keeps
+    said: Array = rows("mates", kind=F4)  # what each other robot has said in the tick before
     begun_at: Array = rows(PLACE_ROWS)  # where the robot was when the tick began
 
 
@@ -161,7 +162,7 @@ SENSED: Mapping[str, tuple[type[Block], tuple[str, ...]]] = {
     "mind": (MindState, ("readings", "before", "stack", "active", "influence")),
     "sight": (SightState, ("nearest", "nearest_of", "frame", "sight", "nearby", "nearby_count")),
     "world": (WorldState, (
-        "body", "heading", "things", "held", "battery", "tick", "trail", "loose", "boxes", "seed", "swivel",
+        "body", "heading", "things", "said", "held", "battery", "tick", "trail", "loose", "boxes", "seed", "swivel",
     )),
 }  # fmt: skip
 Senses = make_dataclass(

@@ -92,14 +92,16 @@ def hash_numbers(task: Task) -> HashNumbers:
     return HashNumbers(robot, numbers, items, next(prime for prime in HASH_SIZES if prime > 1 + loose[-1] - robot))
 
 
-def content_rows(graph: Graph, task: Task, parameters: Parameters, programs: Programs) -> dict[str, Array]:
+def content_rows(graph: Graph, task: Task, master: str, parameters: Parameters, programs: Programs) -> dict[str, Array]:
     """The tables of what a task contains; programs of where it is, and of whether it is there, go to `programs`."""
+    things = things_of(task)
+    masters = {row: graph.skill_numbers[things[row].master or master] for row in robot_rows(task)}
     return {
         "things": thing_rows(graph, task, parameters, programs),
         "obstacles": obstacle_rows(task, parameters, programs),
         "presences": presence_rows(task, programs),
         **walker_rows(task, graph.tick, parameters, programs),
-        "mates": records([{"thing": row} for row in robot_rows(task)], codes.MATE),
+        "mates": records([{"thing": row, "master": number} for row, number in masters.items()], codes.MATE),
     }
 
 

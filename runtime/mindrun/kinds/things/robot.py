@@ -16,9 +16,9 @@ COUNT = Quantity("a whole number from 1 to 63", {"": 1.0}, low=1, high=MOST_ROBO
 class Robot(ThingKind):
     """Other robots with the body and the mind of the first, `count` of them, each with a claw and memories of its own.
 
-    They push each other as balls and boxes do. They begin where the first could: anywhere clear in an arena, or `away`
-    from it in a plain scene; or `at` places. What a robot is to the first, the first
-    is to it.
+    The same master is in charge of them, or the skill that they are `under`. They push each other as balls and boxes
+    do. They begin where the first could: anywhere clear in an arena, or `away` from it in a plain scene; or `at`
+    places. What a robot is to the first, the first is to it.
     """
 
     count: Annotated[int, COUNT] = 1

@@ -77,6 +77,7 @@ def begin_job(tables: Tables, state: State, jobs: Jobs, home: int) -> int:
         reset(tables, state, lane)
     if len(tables.mates) > 0:
         share_world(tables, world, home)
+        world.said[:, home : home + tables.world[0].robots] = ZERO
     return True
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mindrun.numbers.arithmetic import *
-from mindrun.sim.codes import PERSISTENCE_TICKS, Tables
+from mindrun.sim.codes import PERSISTENCE_TICKS, SIGNAL, Tables
 from mindrun.sim.lanes.placement import OF_SEVERAL
 from mindrun.sim.lanes.solid import reach_of, within
 from mindrun.sim.state import ContactState, WorldState
@@ -53,8 +53,12 @@ def share_world(tables, world, home):
                 put_thing(world.things, held[lane], np.nan, np.nan, other)
     for number in range(1, end - home):
         for lane in range(home, end):
-            x, y = middle_of(world.body, home if lane == home + number else home + number)
+            other = home if lane == home + number else home + number
+            x, y = middle_of(world.body, other)
             put_thing(world.things, tables.mates[number - 1].thing, x, y, lane)
+            for i in range(len(tables.actuators)):
+                if tables.actuators[i].kind == SIGNAL:
+                    world.said[number - 1, lane] = world.acting[i, other]
 
 
 def share_things(tables, world, home, lane):
