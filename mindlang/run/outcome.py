@@ -11,7 +11,6 @@ from mindrun.graph.graph import Task
 from mindrun.graph.run_scores import Scores, paid_by_text, score_of
 from mindrun.kinds.registry import phrase
 from mindrun.sim.codes import BROKEN_OFF, GOING_ON, LOST
-from mindrun.sim.task_rows import robot_rows
 from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
 
@@ -133,7 +132,6 @@ def bench_data(
     numbers = [*range(len(task.ends)), *OTHERWISE, GOING_ON]
     return {
         "runs": len(seeds),
-        **({"robots": 1 + len(mates)} if (mates := robot_rows(task)) else {}),
         **spread("count_", scores.counts[0] if task.counts else NOTHING),
         "counted": [happened[event] for event in task.counts],
         "by_event": {happened[event]: spread("", scores.by_event[0, :, event]) for event in task.counts},

@@ -4,13 +4,15 @@ The skills that the master influences are compared: who is in charge decides wha
 """
 
 from collections.abc import Iterator, Sequence
+from itertools import chain
 from typing import Any
 
 import numpy as np
 from mindrun.graph.graph import Edge, Graph
+from mindrun.graph.skill_sets import masters_of
+from mindrun.graph.tasks import robots_in
 from mindrun.sim.lanes.advance import before
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.task_rows import robot_rows
 from numpy.typing import NDArray
 from rich.console import RenderableType
 from rich.text import Text
@@ -57,7 +59,7 @@ def roles_of(rollout: Rollout, skills: Sequence[int], seeds: Sequence[int]) -> l
     """The role of each robot in each tick of the runs of these seeds, which are made again: the skill that has the most
     influence, of equals the first; NO_ROLE where none has any.
     """
-    robots, rows = 1 + len(robot_rows(rollout.task)), [*skills]
+    robots, rows = robots_in(rollout.task), [*skills]
     jobs = rollout.jobs(NO_GENOME, np.array(seeds, np.uint64))
     tile = rollout.tile(max(1, min(len(seeds), rollout.lanes // robots)))
     rollout.fill(tile, jobs)
@@ -100,8 +102,9 @@ def _entropy(times: NDArray[np.integer]) -> float:
 
 
 def by_chance(roles: Roles, skills: int, random: np.random.Generator) -> float:
-    """The division of labour of a run in which several skills are roles, after it is cut into CHANCE_PIECES and the robots are
-    shuffled in each: what is left where nobody keeps a role for longer than a piece. The mean of many shuffles.
+    """The division of labour of a run that has one, after it is cut into pieces and the robots are shuffled in each.
+
+    So much is left where nobody keeps a role for longer than a piece. The mean of many shuffles.
 
     To shuffle them in each tick would say less: robots that are all alike keep a role for a while, and look divided.
     """
@@ -111,14 +114,15 @@ def by_chance(roles: Roles, skills: int, random: np.random.Generator) -> float:
 
 
 def roles_data(rollout: Rollout, master: str, seeds: Sequence[int]) -> dict[str, Any]:
-    """The `roles` of a team under a master in the first of the runs of these seeds, as data; nothing of one robot.
+    """The `robots` of a team and their `roles` in the first of the runs of these seeds, as data; nothing of one robot.
 
     So many runs that they have MOST_ROBOT_TICKS together, and one at least; none where there is nothing to choose.
     """
-    robots = 1 + len(robot_rows(rollout.task))
+    robots = robots_in(rollout.task)
     if robots == 1:
         return {}
-    skills = compared_skills(rollout.graph, master)
+    compared = (compared_skills(rollout.graph, each) for each in masters_of(rollout.task, master))
+    skills = [*dict.fromkeys(chain.from_iterable(compared))]
     most = max(1, min(MOST_RUNS, MOST_ROBOT_TICKS // (robots * rollout.task.ticks)))
     made = roles_of(rollout, skills, seeds[:most]) if len(skills) > 1 else []
     runs = [
@@ -127,11 +131,12 @@ def roles_data(rollout: Rollout, master: str, seeds: Sequence[int]) -> dict[str,
     ]
     divided = {how: [run[how] for run in runs if run[how] is not None] for how in ("division_of_labour", "by_chance")}
     return {
+        "robots": robots,
         "roles": {
             "skills": [rollout.graph.skills[place].name for place in skills],
             **{how: spread("", np.array(values)) for how, values in divided.items()},
             "runs": runs,
-        }
+        },
     }
 
 
@@ -176,6 +181,6 @@ def _role_table(skills: Sequence[str], run: dict[str, Any]) -> Text:
     columns |= {"others": shares[:, order[MOST_COLUMNS:]].sum(axis=1), "nobody": 1 - shares.sum(axis=1)}
     columns = {name: each for name, each in columns.items() if (each >= LEAST_SHARE).any()}
     head = f"roles in run {run['run']}", *(shortened(name, ROOM_COLUMNS // len(columns) - 2) for name in columns)
-    rows = [(f"robot {i + 1}", *(f"{each[i]:.0%}" for each in columns.values())) for i in range(len(shares))]
+    rows = [(f"robot {i}", *(f"{each[i]:.0%}" for each in columns.values())) for i in range(len(shares))]
     rows[MOST_ROWS:] = [(f"… {len(rows) - MOST_ROWS} more", *[""] * len(columns))] if len(rows) > MOST_ROWS else []
     return aligned(rows, (0,), head)

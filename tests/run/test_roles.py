@@ -140,8 +140,8 @@ def test_robots_at_two_gates_have_a_role_each(mindc: Call, team: Path) -> None:
     said = mindc("bench", team, "--runs", 3).out.splitlines()
     assert said[-5:-2] == [
         "roles in run 2  GuardWest  GuardEast",
-        "robot 1              100%         0%",
-        "robot 2                0%       100%",
+        "robot 0              100%         0%",
+        "robot 1                0%       100%",
     ]
     assert said[-2].startswith("division of labour 1.000 ± 0.000, by chance 0.")
     assert said[-1] == "of 3 runs; above, that of median division"
@@ -159,3 +159,16 @@ def test_where_there_is_nothing_to_choose_no_labour_is_divided(mindc: Call, team
     team.write_text("".join(line for line in west.splitlines(True) if "mate" not in line), encoding="utf-8")
     found = json.loads(mindc("bench", team, "--runs", 2, "--json").out)
     assert not {"roles", "robots"} & {*found}
+
+
+def test_what_any_of_several_masters_shares_out_is_compared(mindc: Call, team: Path) -> None:
+    text = (
+        team.read_text(encoding="utf-8")
+        .replace("at 15 0", "at 15 0 under Turn")
+        .replace("influences Turn", "reads to_west #")
+    )
+    team.write_text(text, encoding="utf-8")
+    roles = json.loads(mindc("bench", team, "--runs", 2, "--json").out)["roles"]
+    assert roles["skills"] == ["GuardWest", "GuardEast", "Turn"]
+    for (west, *others), turning in (run["shares"] for run in roles["runs"]):
+        assert (west > 0.9, others, turning) == (True, [0, 0], [0, 0, 1])
