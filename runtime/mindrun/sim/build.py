@@ -48,7 +48,7 @@ def build(
     walls = [wall for thing in task.things for wall in thing.kind.walls]
     tables = Tables(
         **sensors, **skills, **contents,
-        world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside + exact, master),
+        world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside + exact),
         codes=np.array(programs.rows, CODE), actuators=driven, memories=memory_rows(graph),
         loose=task_rows.loose_rows(task, graph.tick, parameters), options=task_rows.option_rows(task),
         walls=np.array(walls, np.float64).reshape(-1, BOX_COLUMNS),

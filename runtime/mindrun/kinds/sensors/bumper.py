@@ -61,8 +61,9 @@ class Bumper(Physical):
             press(t, s, sensor, 0.0, -half_y - y, True, p)
             for i in range(len(t.loose)):
                 lean(t, s, sensor, i, p)
-            for i in range(len(t.mates)):
-                lean_disc(t, s, sensor, t.mates[i].thing, p)
+            for i in range(len(t.robots)):
+                if t.robots[i].thing >= 0:
+                    lean_disc(t, s, sensor, t.robots[i].thing, p)
 
 
 def lean(t: Any, s: Any, sensor: Any, i: Any, p: Any) -> None:

@@ -31,8 +31,8 @@ class Signal(Physical):
         out = s.readings[sensor.start]
         for p in range(n):
             value, least = ZERO, sensor.range
-            for number in range(len(t.mates)):
-                i = t.mates[number].thing
+            for number in range(len(t.robots)):
+                i = t.robots[number].thing
                 if (sensor.thing <= i) & (i < sensor.thing + sensor.things):
                     far = distance_of(s.things, i, p)
                     value, least = (s.said[number, p], far) if far <= least else (value, least)

@@ -92,7 +92,7 @@ def floor(number):
 
 KEY_RANGE = 1 << 26
 CORNER_HASH, NO_HASH = np.uint64(3344921057), np.uint64(0)  # the only contact of a circle has none
-OF_MOVERS = unit_where(lambda tables: len(tables.loose) > 0 or len(tables.mates) > 0)
+OF_MOVERS = unit_where(lambda tables: len(tables.loose) > 0 or len(tables.robots) > 1)
 OF_QUADRANGLES = unit_where(lambda tables: not tables.world[0]["is_round"] or not tables.loose["is_round"].all())
 
 

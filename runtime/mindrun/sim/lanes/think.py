@@ -16,22 +16,22 @@ def begin(tables, mind, lanes):
     mind.influence[:, :lanes] = ZERO
     mind.command_sums[:, :lanes] = ZERO
     mind.influence_sums[:, :lanes] = ZERO
-    master, robots = tables.world[0].master, tables.world[0].robots
+    robots = len(tables.robots)
     if len(mind.scoped) > 1:
         mind.scoped[:, :lanes] = ZERO
-    if robots == 1:
-        put_in_charge(mind, master, 0, lanes, 1)
-    for number in range(robots if robots > 1 else 0):
-        put_in_charge(mind, master if number == 0 else tables.mates[number - 1].master, number, lanes, robots)
+    for number in range(robots):
+        master = tables.robots[number].master
+        give_all(mind.influence[master], number, robots, lanes)
+        for row in range(master, len(mind.scoped) if len(mind.scoped) > 1 else 0, len(mind.influence)):
+            give_all(mind.scoped[row], number, robots, lanes)
 
 
-def put_in_charge(mind, master, first, lanes, step):
-    """Give a skill the influence 1 in each `step`th lane from the `first` one on."""
-    for lane in range(first, lanes, step):
-        mind.influence[master, lane] = ONE
-    for row in range(master, len(mind.scoped) if len(mind.scoped) > 1 else 0, len(mind.influence)):
-        for lane in range(first, lanes, step):
-            mind.scoped[row, lane] = ONE
+def give_all(influence, first, step, lanes):
+    """Let influence be 1 in each `step`th lane from the first one on."""
+    if step == 1:
+        influence[:lanes] = ONE
+    for lane in range(first, lanes if step > 1 else 0, step):
+        influence[lane] = ONE
 
 
 @unit
