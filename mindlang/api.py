@@ -179,7 +179,7 @@ class Mind(ShortRepr):
         scores, *took = run_timed(rollout, seeds)
         notes = setup.notes(rollout, *over_at_once(setup.task, scores))
         data = bench_data(setup.task, scores, seeds, *took) | {"notes": notes}
-        data |= roles_data(rollout, setup.master, seeds)
+        data |= roles_data(rollout, seeds)
         return {"task": setup.task.name, "master": setup.master, "seed": int(seed)} | data
 
     def train(

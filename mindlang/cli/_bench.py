@@ -197,7 +197,7 @@ class Bench:
         data |= {"notes": setup.notes(rollout, *over_at_once(setup.task, scores))}
         with terminal.procedures_talk():
             promises = promises_in(rollout, setup.master, seeds, FEW_TICKS if ran else MAX_COUNTED_TICKS)
-            roles = {} if ran else roles_data(rollout, setup.master, seeds)
+            roles = {} if ran else roles_data(rollout, seeds)
         return scores, data | ({"promises": promises} if promises else {}) | roles
 
     def _by(self) -> dict[str, int | str]:

@@ -4,13 +4,10 @@ The skills that the master influences are compared: who is in charge decides wha
 """
 
 from collections.abc import Iterator, Sequence
-from itertools import chain
 from typing import Any
 
 import numpy as np
 from mindrun.graph.graph import Edge, Graph
-from mindrun.graph.skill_sets import masters_of
-from mindrun.graph.tasks import robots_in
 from mindrun.sim.lanes.advance import before
 from mindrun.sim.rollout import Rollout
 from numpy.typing import NDArray
@@ -31,20 +28,19 @@ Roles = NDArray[np.int16]  # [ticks, robots]: a place among the skills that are 
 Times = NDArray[np.int64]  # [robots, skills]: ticks
 
 
-def compared_skills(graph: Graph, master: str) -> list[int]:
+def compared_skills(graph: Graph, master: int) -> list[int]:
     """The places of the skills between which a master shares out influence; where that is one alone, of those below it.
 
     Without those that always have all of it (`at 1`), which nobody chooses. One where there is no choice.
     """
-    place = graph.skill_numbers[master]
     while True:
-        skill = graph.skills[place]
+        skill = graph.skills[master]
         chosen = dict.fromkeys(
             edge.target for edge in skill.edges if edge.to == "skill" and (skill.chooses or not _is_always(edge))
         )
         if len(chosen) != 1:
-            return [*chosen] or [place]
-        [place] = chosen
+            return [*chosen] or [master]
+        [master] = chosen
 
 
 def _is_always(edge: Edge) -> bool:
@@ -55,23 +51,28 @@ def _is_always(edge: Edge) -> bool:
     return False
 
 
+def team_of(rollout: Rollout) -> list[int]:
+    """The numbers of the robots that are paid: others are a part of the world."""
+    return np.flatnonzero(rollout.tables.robots["paid"]).tolist()
+
+
 def roles_of(rollout: Rollout, skills: Sequence[int], seeds: Sequence[int]) -> list[Roles]:
-    """The role of each robot in each tick of the runs of these seeds, which are made again: the skill that has the most
-    influence, of equals the first; NO_ROLE where none has any.
+    """The role of each robot of the team in each tick of the runs of these seeds, which are made again: the skill that
+    has the most influence, of equals the first; NO_ROLE where none has any.
     """
-    robots, rows = robots_in(rollout.task), [*skills]
+    robots, team, rows = len(rollout.tables.robots), team_of(rollout), [*skills]
     jobs = rollout.jobs(NO_GENOME, np.array(seeds, np.uint64))
     tile = rollout.tile(max(1, min(len(seeds), rollout.lanes // robots)))
     rollout.fill(tile, jobs)
     mind, world, run = tile.state.mind, tile.state.world, tile.state.run
-    roles = np.full((len(seeds), int(jobs.most[0]), robots), NO_ROLE, np.int16)
+    roles = np.full((len(seeds), int(jobs.most[0]), len(team)), NO_ROLE, np.int16)
     while lanes := int(jobs.lanes[0]):
         rollout.observe(tile, jobs)
         before(rollout.tables, tile.state, jobs)
         rollout.think(tile, jobs, 0, len(rollout.tables.skills))
         influence, first = mind.influence[rows, :lanes], slice(0, lanes, robots)
         role = np.where(influence.max(axis=0) > 0, influence.argmax(axis=0), NO_ROLE)
-        roles[run.job[first], world.tick[first]] = role.reshape(-1, robots)
+        roles[run.job[first], world.tick[first]] = role.reshape(-1, robots)[:, team]
         rollout.conclude(tile, jobs)
     return [each[:ticks] for each, ticks in zip(roles, jobs.ticks.tolist(), strict=True)]
 
@@ -113,17 +114,17 @@ def by_chance(roles: Roles, skills: int, random: np.random.Generator) -> float:
     return float(np.mean([division_of_labour(times) or 0.0 for times in shuffled]))
 
 
-def roles_data(rollout: Rollout, master: str, seeds: Sequence[int]) -> dict[str, Any]:
-    """The `robots` of a team and their `roles` in the first of the runs of these seeds, as data; nothing of one robot.
+def roles_data(rollout: Rollout, seeds: Sequence[int]) -> dict[str, Any]:
+    """The `roles` of a team in the first of the runs of these seeds, as data; nothing of one robot.
 
     So many runs that they have MOST_ROBOT_TICKS together, and one at least; none where there is nothing to choose.
     """
-    robots = robots_in(rollout.task)
-    if robots == 1:
+    team, graph, robots = team_of(rollout), rollout.graph, rollout.tables.robots
+    if len(team) == 1:
         return {}
-    compared = (compared_skills(rollout.graph, each) for each in masters_of(rollout.task, master))
-    skills = [*dict.fromkeys(chain.from_iterable(compared))]
-    most = max(1, min(MOST_RUNS, MOST_ROBOT_TICKS // (robots * rollout.task.ticks)))
+    masters = dict.fromkeys(robots["master"][team].tolist())
+    skills = [*dict.fromkeys(skill for master in masters for skill in compared_skills(graph, master))]
+    most = max(1, min(MOST_RUNS, MOST_ROBOT_TICKS // (len(robots) * rollout.task.ticks)))
     made = roles_of(rollout, skills, seeds[:most]) if len(skills) > 1 else []
     runs = [
         {"run": number, "seed": int(seed), **_run_data(roles, len(skills), seed)}
@@ -131,12 +132,12 @@ def roles_data(rollout: Rollout, master: str, seeds: Sequence[int]) -> dict[str,
     ]
     divided = {how: [run[how] for run in runs if run[how] is not None] for how in ("division_of_labour", "by_chance")}
     return {
-        "robots": robots,
         "roles": {
-            "skills": [rollout.graph.skills[place].name for place in skills],
+            "robots": team,
+            "skills": [graph.skills[place].name for place in skills],
             **{how: spread("", np.array(values)) for how, values in divided.items()},
             "runs": runs,
-        },
+        }
     }
 
 
@@ -164,7 +165,7 @@ def roles_text(found: dict[str, Any]) -> Iterator[RenderableType]:
         yield f"no division of labour: {listed(had, 'or') + ' alone' if had else 'no skill'} is the role of all robots"
         return
     runs.sort(key=lambda run: float(run["division_of_labour"]))
-    yield _role_table(roles["skills"], runs[(len(runs) - 1) // 2])
+    yield _role_table(roles, runs[(len(runs) - 1) // 2])
     error, made = roles["division_of_labour"]["standard_error"], len(roles["runs"])
     said = f"{roles['division_of_labour']['mean']:.3f}" + (f" ± {error:.3f}" if error is not None else "")
     yield Text(f"division of labour {said}, by chance {roles['by_chance']['mean']:.3f}", "bold")
@@ -173,14 +174,15 @@ def roles_text(found: dict[str, Any]) -> Iterator[RenderableType]:
     yield Text(f"{of}{alone}; above, that of median division" if len(runs) > 1 else f"{of}{alone}", "dim")
 
 
-def _role_table(skills: Sequence[str], run: dict[str, Any]) -> Text:
+def _role_table(roles: dict[str, Any], run: dict[str, Any]) -> Text:
     """A row for each robot with its share of each role, the most frequent first; beyond MOST_COLUMNS they are one."""
     shares = np.array(run["shares"])
     order = np.argsort(-shares.sum(axis=0), kind="stable")
-    columns = {skills[i]: shares[:, i] for i in order[:MOST_COLUMNS]}
+    columns = {roles["skills"][i]: shares[:, i] for i in order[:MOST_COLUMNS]}
     columns |= {"others": shares[:, order[MOST_COLUMNS:]].sum(axis=1), "nobody": 1 - shares.sum(axis=1)}
     columns = {name: each for name, each in columns.items() if (each >= LEAST_SHARE).any()}
     head = f"roles in run {run['run']}", *(shortened(name, ROOM_COLUMNS // len(columns) - 2) for name in columns)
-    rows = [(f"robot {i}", *(f"{each[i]:.0%}" for each in columns.values())) for i in range(len(shares))]
+    cells = ([f"{share:.0%}" for share in each] for each in columns.values())
+    rows = [*zip((f"robot {number}" for number in roles["robots"]), *cells, strict=True)]
     rows[MOST_ROWS:] = [(f"… {len(rows) - MOST_ROWS} more", *[""] * len(columns))] if len(rows) > MOST_ROWS else []
     return aligned(rows, (0,), head)

@@ -69,7 +69,7 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
 
 
 def _per_robot(found: dict[str, Any], times: Mapping[str, Any]) -> str:
-    return f" ({score(times['mean'] / found['robots'])} per robot)" if "robots" in found else ""
+    return f" ({score(times['mean'] / len(found['roles']['robots']))} per robot)" if "roles" in found else ""
 
 
 def _goals(found: dict[str, Any]) -> Iterator[RenderableType]:

@@ -103,7 +103,8 @@ def test_the_skills_that_a_master_shares_influence_out_to_are_compared() -> None
     above = "skill Above is rule\n  reads from_west\n  influences Guard at from_west\n"
     graph = compile_text(GUARDS.replace("master Guard", "master Above") + above)
     names = {
-        master: [graph.skills[i].name for i in compared_skills(graph, master)] for master in ("Guard", "Above", "Turn")
+        master: [graph.skills[i].name for i in compared_skills(graph, graph.skill_numbers[master])]
+        for master in ("Guard", "Above", "Turn")
     }
     assert names == {"Guard": ["GuardWest", "GuardEast"], "Above": ["GuardWest", "GuardEast"], "Turn": ["Turn"]}
 
@@ -111,7 +112,7 @@ def test_the_skills_that_a_master_shares_influence_out_to_are_compared() -> None
 def test_a_role_is_the_skill_of_most_influence_in_every_tick_whatever_lanes_there_are() -> None:
     graph = compile_text(GUARDS)
     rollout = Rollout(Policy(graph, {}), "Guard", "Guard", lanes=12)
-    skills, seeds = compared_skills(graph, "Guard"), range(1, 9)
+    skills, seeds = compared_skills(graph, graph.skill_numbers["Guard"]), range(1, 9)
     together = roles_of(rollout, skills, seeds)
     ticks = [len(roles) for roles in together]
     assert len({*ticks}) > 3
@@ -132,7 +133,7 @@ def team(tmp_path: Path) -> Path:
 
 def test_robots_at_two_gates_have_a_role_each(mindc: Call, team: Path) -> None:
     found = json.loads(mindc("bench", team, "--runs", 3, "--json").out)
-    assert found["robots"] == 2
+    assert found["roles"]["robots"] == [0, 1]
     assert found["roles"]["skills"] == ["GuardWest", "GuardEast"]
     assert [run["shares"] for run in found["roles"]["runs"]] == [[[1, 0], [0, 1]]] * 3
     assert found["roles"]["division_of_labour"] == {"mean": 1, "std": 0, "standard_error": 0}
@@ -158,7 +159,7 @@ def test_where_there_is_nothing_to_choose_no_labour_is_divided(mindc: Call, team
     assert last == "no division of labour: GuardWest alone is the role of all robots"
     team.write_text("".join(line for line in west.splitlines(True) if "mate" not in line), encoding="utf-8")
     found = json.loads(mindc("bench", team, "--runs", 2, "--json").out)
-    assert not {"roles", "robots"} & {*found}
+    assert "roles" not in found
 
 
 def test_what_any_of_several_masters_shares_out_is_compared(mindc: Call, team: Path) -> None:
@@ -172,3 +173,13 @@ def test_what_any_of_several_masters_shares_out_is_compared(mindc: Call, team: P
     assert roles["skills"] == ["GuardWest", "GuardEast", "Turn"]
     for (west, *others), turning in (run["shares"] for run in roles["runs"]):
         assert (west > 0.9, others, turning) == (True, [0, 0], [0, 0, 1])
+
+
+def test_robots_that_are_not_paid_are_none_of_the_team(mindc: Call, team: Path) -> None:
+    text = team.read_text(encoding="utf-8")
+    text = text.replace("at 15 0", "at 15 10 paid 0 under Turn\n  contains other is robot at 15 -10")
+    team.write_text(text, encoding="utf-8")
+    roles = json.loads(mindc("bench", team, "--runs", 2, "--json").out)["roles"]
+    assert (roles["robots"], roles["skills"]) == ([0, 2], ["GuardWest", "GuardEast"])
+    assert [run["shares"] for run in roles["runs"]] == [[[1, 0], [0, 1]]] * 2
+    assert "robot 2" in mindc("bench", team, "--runs", 2).out
