@@ -142,6 +142,7 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
             "loose": next(loose) if kind.is_loose else -1, "settles": kind.is_loose and zones_stay,
             "walker": next(walkers) if kind.walks else -1, "number": numbers[number],
             "copy": copy, "copies": kind.copies, "option": options, "options": 0 if own else len(kind.options),
+            **(_steepness(kind, graph.tick) if kind.is_steep else {}),
             **_region(kind, rows_by_name(task)), **(own[0] if own else EVERY_RUN),
         }  # fmt: skip
         options += len(kind.options) if copy + 1 == kind.copies else 0
@@ -152,6 +153,12 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
         row["is_delivered"] = row["is_delivered"] and bool(zones)  # elsewhere nobody looks for zones
         rows.append(row)
     return records(rows, codes.THING)
+
+
+def _steepness(kind: Any, dt: float) -> Row:
+    """The columns of a slope: how far an item slides down in a tick, and the force that draws a robot down."""
+    (x, y), far = kind.down, kind.slides * dt
+    return {"slide_x": x * far, "slide_y": y * far, "pull_x": x * kind.pull, "pull_y": y * kind.pull}
 
 
 def _region(kind: ThingKind, places: Mapping[str, range]) -> Row:
@@ -367,6 +374,7 @@ def world_row(graph: Graph, task: Task, parameters: Parameters, rays: int, used:
         "half_x": half_x, "half_y": half_y, "is_placed": begin.at is not None, "start_x": start_x, "start_y": start_y,
         "is_faced": begin.facing is not None, "facing": begin.facing or 0.0, "ticks": task.ticks,
         "start": battery.start if powered else np.nan, "drain": battery.drain, "charge": battery.charge, "rays": rays,
+        "slopes": sum(thing.kind.is_steep for thing in task.things),
         "near": near, "claw": graph.claw_reach, "battery": powered,
         "number": numbers.robot, "items": numbers.items, "hash_size": numbers.size,
         "paid": paid_robots(task),
