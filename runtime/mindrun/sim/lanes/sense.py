@@ -199,13 +199,13 @@ def look_at_loose(tables: Tables, world: WorldState, sight: SightState, first: i
 @unit_where(lambda tables: len(tables.robots) > 1 and tables.world[0]["rays"] > 0)
 def look_at_robots(tables: Tables, world: WorldState, sight: SightState, first: int, last: int, lanes: int) -> None:
     """Shorten each of some rays that meets another robot, but for one of those that its own sensor looks for."""
-    rows, frame, body = sight.sight, sight.frame, world.body
-    for i in range(len(tables.robots)):
+    rows, frame, body, robots = sight.sight, sight.frame, world.body, len(tables.robots)
+    for i in range(robots):
         thing = tables.robots[i].thing
-        if thing < 0:
-            continue
         for lane in range(lanes):
-            x, y = place_of(world.things, thing, lane)
+            other = lane - lane % robots + i
+            x, y = middle_of(body, other)
+            x = np.nan if other == lane else x
             frame[LOOSE_COSINE, lane], frame[LOOSE_SINE, lane] = ONE, ZERO
             frame[LOOSE_X, lane], frame[LOOSE_Y, lane] = F(x - body[X, lane]), F(y - body[Y, lane])
             frame[LOOSE_HALF, lane] = F(tables.world[0].radius)
