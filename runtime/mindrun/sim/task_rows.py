@@ -57,13 +57,11 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
     first, first_robot = {name: found.start for name, found in rows_by_name(task).items()}, robot_rows(task)[0]
     numbers = hash_numbers(task).things
     for number, thing in enumerate(things_of(task)):
-        kind, size, copy = thing.kind, thing.kind.size, number - first[thing.name]
+        kind, size, copy = thing.kind, _size(graph, thing.kind), number - first[thing.name]
         low, high = kind.distances(task.scene)
         x, y = kind.places[copy - (kind.is_robot and thing.name == own_name(task))] if kind.places else (0.0, 0.0)
         is_drawn = bool(kind.options) or (kind.walks and not kind.wanders)
         own = _drawn_places(thing, parameters, programs)[:1] if not kind.ways else []
-        if kind.is_robot:
-            size = Span(2 * graph.body.radius, 2 * graph.body.radius)
         if kind.is_loose:  # not in the robot
             low = max(low, graph.body.radius + kind.largest * HALF_DIAGONAL)
         row: dict[str, float] = {
@@ -87,6 +85,11 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
         row["is_delivered"] = row["is_delivered"] and bool(zones)  # elsewhere nobody looks for zones
         rows.append(row)
     return records(rows, codes.THING)
+
+
+def _size(graph: Graph, kind: ThingKind) -> Span:
+    """The sizes of a thing; of a robot that of the circle around it."""
+    return Span(2 * graph.body.radius, 2 * graph.body.radius) if kind.is_robot else kind.size
 
 
 def _steepness(kind: Any, dt: float) -> Row:
