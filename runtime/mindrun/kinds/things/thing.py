@@ -128,6 +128,7 @@ class ThingKind:
     speed = 0.0  # at which it does, in units per second
     can_be_held = False  # whether a claw can take it
     can_be_delivered = False  # whether it counts as delivered when it comes into a zone
+    is_steep = False  # whether it is a slope
     is_area = False  # whether it lies on the floor, so that a robot or an item can be inside
     takes_items = False  # whether items are delivered into it
     charges = False  # whether the battery charges in it
