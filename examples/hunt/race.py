@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 from mindrun.graph.run_scores import Scores as RunScores
-from mindrun.graph.weights import genes
+from mindrun.graph.skill_sets import genes
 from mindrun.numbers.arrays import Doubles
 from mindrun.sim.rollout import Rollout
 from mindrun.terminal.arguments import whole
@@ -97,7 +97,7 @@ class Race:
     def teach(self, side: str, number: int, known: Sequence[Genomes], opponents: Sequence[Genomes]) -> Genomes:
         """The champion [1, weights] of a round of one side, which goes on from what it knew."""
         scorer = Against(self.rollouts[side], side, opponents)
-        lesson = next(each for each in self.mind.graph.lessons if each.skill == side)
+        lesson = next(each for each in self.mind.graph.lessons if each.task == side)
         start = known[0] if known else np.empty((0, scorer.genome_length), np.float32)
         course = Course(lesson, self.seed, start)
         state = begin_attempt(course)

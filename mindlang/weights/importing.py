@@ -12,7 +12,8 @@ from urllib.parse import quote
 import numpy as np
 from mindrun.graph.graph import Lesson
 from mindrun.graph.policy import Policy
-from mindrun.graph.weights import Weights, learners, owners, reachable
+from mindrun.graph.skill_sets import acting, learners, owners
+from mindrun.graph.weights import Weights
 from mindrun.numbers.network import Terms, matrices
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
@@ -162,10 +163,11 @@ def open_trial(subject: Subject, name: str, path: Path) -> Trial:
 
 
 def other_weights(subject: Subject, name: str, lesson: Lesson) -> dict[str, Weights]:
-    """The weights of all others below a lesson's master; RunError where these lack some, or the skill is frozen."""
+    """The weights of all others that act in a lesson; RunError where these lack some, or the skill is frozen."""
     if name not in learners(subject.graph, lesson):
         raise RunError(f"{name} is frozen", command_line("mindc", "edit", "unfreeze", subject.shown, name, "--write"))
-    needed = [each for each in owners(reachable(subject.graph, lesson.master)) if each != name]
+    task = next(task for task in subject.graph.tasks if task.name == lesson.task)
+    needed = [each for each in owners(acting(subject.graph, task, lesson.master)) if each != name]
     others, refusals = trained_weights(subject.graph, subject.lock, needed)
     if refusals:
         first = [each for each in reversed(needed) if each not in others]
