@@ -29,7 +29,8 @@ from mindlang.weights.network import network_of, to_bytes
 
 FILE = Path(__file__).with_name("hunt.mind")
 SIDES = "Hunt", "Flee"  # the skill of each, which is in charge of the task of its name
-WAYS = {"in turns": False, "with a hall of fame": True}
+HALL = "with a hall of fame"
+WAYS = {"in turns alone": False, HALL: True}
 FIELDS = tuple(each.name for each in fields(RunScores))
 Champions = Mapping[str, list[Genomes]]  # of each side, those [1, weights] of all rounds
 
@@ -124,10 +125,21 @@ def table(catches: Doubles) -> str:
 
 
 def progress(catches: Doubles) -> str:
-    """How the last of both sides do against all that were taught before them."""
-    earlier = len(catches) - 1
-    beaten, safe = (catches[-1, :-1] > 0.5).sum(), (catches[:-1, -1] < 0.5).sum()
-    return f"the last predators beat {beaten} of {earlier} earlier prey, the last prey {safe} earlier predators"
+    """How the last of both sides do against each that the other side had before."""
+    least, most = catches[-1, :-1].min(), catches[:-1, -1].max()
+    theirs = f"earlier predators the last prey in at most {most:.0%}"
+    return f"the last predators catch each earlier prey in at least {least:.0%} of the runs, {theirs}"
+
+
+def crossed(race: Race, champions: Mapping[str, Champions], runs: int) -> str:
+    """What the last predators of each way catch of the prey of all rounds of each way."""
+    lines = []
+    for way, found in champions.items():
+        last = {"Hunt": found["Hunt"][-1:]}
+        shares = (race.catches({**last, "Flee": each["Flee"]}, runs).mean() for each in champions.values())
+        said = (f"{share:.0%} of all prey {of}" for share, of in zip(shares, champions, strict=True))
+        lines.append(f"the last predators {way} catch {' and '.join(said)}\n")
+    return "".join(lines)
 
 
 def draw(tables: Mapping[str, Doubles], path: Path) -> None:
@@ -140,19 +152,19 @@ def draw(tables: Mapping[str, Doubles], path: Path) -> None:
         rounds = range(len(catches))
         for row, column in np.ndindex(catches.shape):
             axes.text(column, row, f"{100 * catches[row, column]:.0f}", ha="center", va="center", fontsize=8)
-        axes.set(title=f"{way}: catches in 100 runs", xlabel="prey of round", ylabel="predators of round")
+        axes.set(title=f"{way}: caught, in %", xlabel="prey of round", ylabel="predators of round")
         axes.set(xticks=rounds, yticks=rounds, xticklabels=[n + 1 for n in rounds], yticklabels=[n + 1 for n in rounds])
     figure.savefig(path, dpi=100)
 
 
 def main() -> None:
-    """Run the races, print their tables, and keep what the first seed came to."""
+    """Run the races, print their tables, and keep what they come to."""
     parser = argparse.ArgumentParser(
         allow_abbrev=False, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--seeds", type=whole(1, 1000), default=3, help="how many")
     parser.add_argument("--first", type=whole(0, 2**32), default=1, help="the first of them")
-    parser.add_argument("--rounds", type=whole(1, 100), default=8)
+    parser.add_argument("--rounds", type=whole(2, 100), default=8)
     parser.add_argument("--runs", type=whole(1, 100_000), default=100, help="of each predators against each prey")
     parser.add_argument("--workers", type=whole(1, 1024), default=2, help="threads")
     parser.add_argument("--out", type=Path, default=Path("runs/hunt"))
@@ -161,15 +173,16 @@ def main() -> None:
     mind = mindlang.load(FILE)
     rollouts = {side: mind.rollout(side, side, SIDES, said.workers) for side in SIDES}
     for seed in range(said.first, said.first + said.seeds):
-        race, tables = Race(mind, rollouts, said.rounds, seed), dict[str, Doubles]()
-        for way, with_hall in WAYS.items():
-            champions = race.run(with_hall)
-            tables[way] = race.catches(champions, said.runs)
-            print(f"seed {seed}, {way}: {progress(tables[way])}\n{table(tables[way])}\n", flush=True)
+        race = Race(mind, rollouts, said.rounds, seed)
+        champions = {way: race.run(with_hall) for way, with_hall in WAYS.items()}
+        tables = {way: race.catches(found, said.runs) for way, found in champions.items()}
+        for way, catches in tables.items():
+            print(f"seed {seed}, {way}: {progress(catches)}\n{table(catches)}\n")
+        print(crossed(race, champions, said.runs), flush=True)
         draw(tables, said.out / f"race-{seed}.png")
-        for side in SIDES:
-            genome = champions[side][-1][0]
-            (said.out / f"{side}-{seed}.safetensors").write_bytes(to_bytes(network_of(mind.graph, side), genome))
+        for side, found in champions[HALL].items():
+            kept = to_bytes(network_of(mind.graph, side), found[-1][0])
+            (said.out / f"{side}-{seed}.safetensors").write_bytes(kept)
 
 
 if __name__ == "__main__":

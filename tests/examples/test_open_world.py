@@ -11,6 +11,7 @@ from tests.language.examples import ROOT
 # What 20 runs from seed 1 reach at least: a figure of `mindc bench --json`, a good deal below what it is.
 REACHED = {
     "ball": ("Fetch", ["score_mean"], 32.0),
+    "hunt": ("Hunt", ["count_mean"], 0.65),
     "light": ("SeekLight", ["by_event", "reach of lamp", "mean"], 4.0),
     "line": ("Unseen", ["score_mean"], 70.0),
     "maze": ("Explore", ["success", "mean"], 0.85),
