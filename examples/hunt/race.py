@@ -146,7 +146,7 @@ def draw(tables: Mapping[str, Doubles], path: Path) -> None:
     """The tables side by side, as a picture."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(9, 4.6), layout="constrained")
+    figure = Figure(figsize=(9, 5), layout="constrained")
     for axes, (way, catches) in zip(figure.subplots(1, len(tables), squeeze=False)[0], tables.items(), strict=True):
         axes.imshow(catches, cmap="RdYlBu_r", vmin=0, vmax=1)
         rounds = range(len(catches))
@@ -167,7 +167,7 @@ def main() -> None:
     parser.add_argument("--rounds", type=whole(2, 100), default=8)
     parser.add_argument("--runs", type=whole(1, 100_000), default=100, help="of each predators against each prey")
     parser.add_argument("--workers", type=whole(1, 1024), default=2, help="threads")
-    parser.add_argument("--out", type=Path, default=Path("runs/hunt"))
+    parser.add_argument("--out", type=Path, default=Path("runs/hunt"), help="default: runs/hunt")
     said = parser.parse_args()
     said.out.mkdir(parents=True, exist_ok=True)
     mind = mindlang.load(FILE)

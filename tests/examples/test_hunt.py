@@ -76,3 +76,15 @@ def test_nothing_is_said_against_either_side(mindc: Call) -> None:
     for command in (["check"], ["lint"], ["fmt", "--check"]):
         said = mindc(*command, HUNT / "predators.mind", HUNT / "prey.mind")
         assert said.code == 0, said.out + said.err
+
+
+def test_weights_are_tried_against_what_the_other_side_was_taught(mindc: Call, tmp_path: Path) -> None:
+    mind, file = copytree(HUNT, tmp_path / "hunt") / "hunt.mind", tmp_path / "flee.safetensors"
+    assert mindc("weights", "export", mind, "Flee", file).code == 0
+    said = mindc("weights", "import", mind, "Flee", file)
+    assert said.code == 0, said.err
+    lock = mind.with_suffix(".lock")
+    lock.write_text("".join(line for line in lock.read_text().splitlines(True) if not line.startswith("Hunt is")))
+    said = mindc("weights", "import", mind, "Flee", file)
+    assert said.code == 1
+    assert "Hunt has not been taught" in said.err
