@@ -21,7 +21,7 @@ from mindrun.graph.recording_header import GOES_ON
 from mindrun.graph.run_scores import paid_by_text, score_of
 from mindrun.kinds.events.event import EventKind
 from mindrun.kinds.functions.function import Rule
-from mindrun.kinds.registry import names
+from mindrun.kinds.registry import arguments, names
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS
 from mindrun.numbers.arrays import Array, Bools, Doubles, Integers, Singles
 from mindrun.sim.arrays import whole_vectors
@@ -316,7 +316,8 @@ def _of_lanes(part: Any, lanes: Integers, count: int) -> Any:
 
 def _written(event: EventKind) -> str:
     """An event as a mind writes it, without its numbers: "reach of ball"."""
-    words = [f" {word} {getattr(event, word)}" for word in ("of", "to") if getattr(event, word, "")]
+    said = ((each.key, getattr(event, each.field)) for each in arguments(type(event)))
+    words = [f" {word} {name}" for word, name in said if isinstance(name, str) and name]
     soon = f" within {event.within.ticks} ticks of {_written(event.within.of)}" if event.within else ""
     return names()[type(event)] + "".join(words) + soon
 

@@ -1,0 +1,126 @@
+"""Several robots as agents of PettingZoo: clean, reproducible, and the run of their mind, to the bit."""
+
+import pickle
+import warnings
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mindrun.errors import MindError
+
+import mindlang
+from tests.sim.test_teams import TOGETHER
+
+pytest.importorskip("pettingzoo")
+
+from gymnasium.error import ResetNeeded
+from pettingzoo.utils import parallel_to_aec
+
+from mindlang.environments import ParallelTask, TaskEnv
+
+with warnings.catch_warnings():  # of PettingZoo about itself
+    warnings.simplefilter("ignore")
+    from pettingzoo.test import parallel_api_test, parallel_seed_test, state_test
+
+TEAM = """task Team in arena size 16
+  contains mate is robot count 3
+  contains object is item size 1 count 2
+  lasts 300 ticks
+  rewards 30 on collision
+  rewards -20 on collision with mate
+  counts collision with mate
+"""
+ALONE = """task Alone in arena size 16
+  contains object is item size 1
+  lasts 9 ticks
+  rewards 1 on collision
+"""
+AGENTS = ["robot_0", "robot_1", "robot_2", "robot_3"]
+
+
+@pytest.fixture
+def team(tmp_path: Path) -> Path:
+    (path := tmp_path / "team.mind").write_text(f"mind 1\n{TOGETHER}{TEAM}{ALONE}", encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("task", ["Team", "Alone"])
+def test_pettingzoo_finds_nothing_wrong(team: Path, task: str) -> None:
+    env = ParallelTask(team, task)
+    parallel_api_test(env, 1000)  # a warning would be an error here, and in all of them
+    parallel_seed_test(partial(ParallelTask, team, task))
+    state_test(parallel_to_aec(env), env)
+
+
+@pytest.mark.parametrize("more", ["", "  ends on collision with mate\n"])
+def test_under_the_commands_of_their_mind_it_is_the_run_of_its_layout(team: Path, more: str) -> None:
+    team.write_text(team.read_text("utf-8").replace(TEAM, TEAM + more), "utf-8")
+    mind, env = mindlang.load(team), ParallelTask(team, "Team")
+    rollout, minds = mind.rollout("Team"), {agent: mind.engine() for agent in AGENTS}
+    rows, ended = env._episodes.readings, set()
+    for seed in range(8):
+        scores, first = rollout.score(np.zeros((1, 0), np.float32), [seed]), list(mind.trace("Team", seed).moments)
+        seen, told = env.reset(seed=seed)
+        assert told == {agent: {"layout": seed} for agent in AGENTS}
+        total, own, ticks = 0.0, dict.fromkeys(AGENTS, 0.0), 0
+        for engine in minds.values():
+            engine.reset()
+        while env.agents:
+            assert np.array_equal(seen["robot_0"], first[ticks].readings[rows])
+            assert np.array_equal(env.state(), np.concatenate([*seen.values()]))
+            readings = {agent: np.zeros(mind.graph.width, np.float32) for agent in AGENTS}
+            for agent in AGENTS:
+                readings[agent][rows] = seen[agent]
+            seen, paid, *over, told = env.step({agent: minds[agent].tick(readings[agent]) for agent in AGENTS})
+            assert [*map(set, (seen, paid, *over, told))] == [set(AGENTS)] * 5
+            total, ticks = total + sum(paid.values()) / len(paid), ticks + 1
+            own = {agent: own[agent] + paid[agent] for agent in AGENTS}
+            assert own["robot_0"] == first[ticks - 1].lines.sum()
+        assert ticks == scores.ticks[0, 0]
+        assert total == scores.total[0, 0]  # whole numbers, and a quarter of their sum
+        assert len({*own.values()}) > 1
+        ends = {name: {*each.values()} for name, each in zip(("terminated", "truncated"), over, strict=True)}
+        assert ends == {"terminated": {ticks < 300}, "truncated": {ticks == 300}}
+        outcome = {"layout": seed, "score": scores.total[0, 0], "count": scores.counts[0, 0]}
+        assert told == {agent: outcome | {"ended_by": told["robot_0"]["ended_by"]} for agent in AGENTS}
+        ended.add(told["robot_0"]["ended_by"])
+    assert ended == ({"collision with mate"} if more else {"time"})
+
+
+def test_who_cannot_act_is_told(team: Path) -> None:
+    env = ParallelTask(team, "Team")
+    for step in (env.step, lambda actions: (env.reset(seed=1), [env.step(actions) for _ in range(301)])):
+        with pytest.raises(ResetNeeded):
+            step({agent: np.full(3, 0.5, np.float32) for agent in AGENTS})
+    env.reset()
+    with pytest.raises(MindError, match=r"^there is no action for robot_1 or robot_3$"):
+        env.step({agent: np.full(3, 0.5, np.float32) for agent in AGENTS[::2]})
+    with pytest.raises(MindError, match=r"^actions have the shape"):
+        env.step({agent: np.full(2, 0.5, np.float32) for agent in AGENTS})
+
+
+def test_layouts_are_drawn_from_the_seed(team: Path) -> None:
+    def drawn(env: ParallelTask) -> list[object]:
+        return [env.reset(seed=4)[1], env.reset()[1], env.reset()[1]]
+
+    env = ParallelTask(team, "Team")
+    first = drawn(env)
+    assert first == drawn(env) == drawn(pickle.loads(pickle.dumps(env)))
+    assert len({each["robot_0"]["layout"] for each in first}) == 3
+
+
+def test_one_agent_in_a_world_of_several_robots_is_refused(team: Path) -> None:
+    with pytest.raises(MindError, match=r"^Team has 4 robots, and an environment of Gymnasium one agent$") as raised:
+        TaskEnv(team, "Team")
+    assert raised.value.hint == "mindlang.environments.ParallelTask has an agent for each"
+
+
+def test_ppo_learns_on_it(team: Path) -> None:
+    supersuit, learners = pytest.importorskip("supersuit"), pytest.importorskip("stable_baselines3")
+    side_by_side = supersuit.pettingzoo_env_to_vec_env_v1(ParallelTask(team, "Team"))
+    env = supersuit.concat_vec_envs_v1(side_by_side, 2, base_class="stable_baselines3")
+    model = learners.PPO("MlpPolicy", env, n_steps=16, batch_size=32, n_epochs=1, device="cpu")
+    before = [each.detach().clone() for each in model.policy.parameters()]
+    model.learn(16 * 8)
+    assert any((old != new).any() for old, new in zip(before, model.policy.parameters(), strict=True))
