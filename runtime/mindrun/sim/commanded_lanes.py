@@ -51,6 +51,10 @@ class CommandedLanes:
         self.lanes = runs * self.robots
         self.tile = rollout.tile(runs)
         self.state: State = self.tile.state
+        # Of the first robot of each run [runs], and so of all.
+        self._met, self._tick, self._job = (
+            each[:: self.robots] for each in (self.state.run.met, self.state.world.tick, self.state.run.job)
+        )
         genome = np.zeros((1, rollout.genome_length), np.float32)
         self.jobs: Jobs = rollout.jobs(genome, np.zeros(runs, np.uint64))
         self.jobs.most[0] = ENDLESS_TICKS  # a run that has lasted its time stays, and what it reads then can be asked
@@ -93,7 +97,7 @@ class CommandedLanes:
         # A robot beyond all places leaves its lane at once: another run takes it, or it stays empty where it is alone.
         self.jobs.next[0] = 0 if self.count > 1 else 1
         after(self.rollout.tables, self.state, self.jobs, False)
-        self._lost |= ((self.state.world.tick == 0) | (self.state.run.job < 0))[:: self.robots]
+        self._lost |= (self._tick == 0) | (self._job < 0)
 
     def sensed_aside(self, runs: Bools) -> State:
         """Another state whose first lanes have what the robots marked [runs] would read now; nothing here changes."""
@@ -108,17 +112,17 @@ class CommandedLanes:
     @property
     def terminated(self) -> Bools:
         """True for the runs [runs] in which an end was met, or a robot is beyond all places."""
-        return np.asarray((self.state.run.met[:: self.robots] != GOING_ON) | self._lost)
+        return np.asarray((self._met != GOING_ON) | self._lost)
 
     @property
     def timed_out(self) -> Bools:
         """True for the runs [runs] that have lasted their time."""
-        return np.asarray(self.state.world.tick[:: self.robots] >= self.rollout.task.ticks)
+        return np.asarray(self._tick >= self.rollout.task.ticks)
 
     @property
     def ended_by(self) -> Integers:
         """The end that each run has met [runs], as `Scores.ended_by`: GOING_ON where none, also when time is up."""
-        return np.asarray(np.where(self._lost, LOST, self.state.run.met[:: self.robots]))
+        return np.asarray(np.where(self._lost, LOST, self._met))
 
     @property
     def lines(self) -> Doubles:
@@ -156,10 +160,10 @@ class CommandedLanes:
 
         Where a run was lost and another has taken its lanes, it is what was `written` down of all of its robots.
         """
-        found, taken = rows[: written.shape[1], : self.lanes].T, self._lost & (self.count > 1)
-        if taken.any():
+        found = rows[: written.shape[1], : self.lanes].T
+        if self.count > 1 and self._lost.any():
             runs = np.arange(self.lanes) // self.robots
-            found = np.where(taken[runs, None], written[runs], found)
+            found = np.where(self._lost[runs, None], written[runs], found)
         return found
 
     def world_columns(self, lane: int) -> dict[str, Any]:
