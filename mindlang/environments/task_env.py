@@ -205,8 +205,11 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
 def _alone(episodes: Episodes) -> Episodes:
     """The episodes; MindError where several robots are in the world of each."""
     if episodes.lanes.robots > 1:
-        said = f"{episodes.setup.task.name} has {episodes.lanes.robots} robots, and an environment of Gymnasium one agent"
-        raise MindError(said, "mindlang.environments.ParallelTask has an agent for each")
+        name, robots = episodes.setup.task.name, episodes.lanes.robots
+        raise MindError(
+            f"{name} has {robots} robots, and this has one agent",
+            "mindlang.environments.ParallelTask has an agent for each",
+        )
     return episodes
 
 

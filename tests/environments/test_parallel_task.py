@@ -111,7 +111,7 @@ def test_layouts_are_drawn_from_the_seed(team: Path) -> None:
 
 
 def test_one_agent_in_a_world_of_several_robots_is_refused(team: Path) -> None:
-    with pytest.raises(MindError, match=r"^Team has 4 robots, and an environment of Gymnasium one agent$") as raised:
+    with pytest.raises(MindError, match=r"^Team has 4 robots, and this has one agent$") as raised:
         TaskEnv(team, "Team")
     assert raised.value.hint == "mindlang.environments.ParallelTask has an agent for each"
 

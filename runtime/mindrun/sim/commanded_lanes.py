@@ -1,8 +1,8 @@
 """Runs side by side, or a single one, whose robots are commanded from outside, tick by tick.
 
-Each stays in its lanes, one for each robot of its world, until it is replaced. A tick is `command` or `play`, then `act`, then `sense`; between the last
-two a run that is over may make room for another (`begin`). Under the commands that a mind computes, a run is bit for
-bit what `Rollout` makes of its seed.
+Each stays in its lanes, one for each robot of its world, until it is replaced. A tick is `command` or `play`, then
+`act`, then `sense`; between the last two a run that is over may make room for another (`begin`). Under the commands
+that a mind computes, a run is bit for bit what `Rollout` makes of its seed.
 """
 
 from collections import Counter
