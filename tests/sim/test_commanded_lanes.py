@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
+from mindrun.errors import MindError
 from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores
 from mindrun.graph.weights import reachable, weights_of
 from mindrun.kinds.functions.function import Stateful
 from mindrun.sim.codes import FAR
-from mindrun.sim.commanded_lanes import CommandedLanes, commanded_lanes
+from mindrun.sim.commanded_lanes import CommandedLanes, CommandedWorld, commanded_lanes
 from mindrun.sim.rollout import Rollout
 
 from mindlang.compiler.compile import load
@@ -147,6 +148,11 @@ def test_a_run_has_ended_where_one_of_its_robots_is_beyond_all_places(count: int
     lanes.begin(lost, [9])
     assert not lanes.terminated.any()
     assert lanes.state.world.tick.tolist() == np.repeat(np.where(lost, 0, 40), 3).tolist()
+
+
+def test_a_single_engine_commands_no_world_of_several_robots() -> None:
+    with pytest.raises(MindError, match=r"^Crowd has 3 robots, and only one can be commanded here$"):
+        CommandedWorld(compile_text(TOGETHER + CROWD), "Crowd", 1)
 
 
 def driven(lanes: CommandedLanes, ticks: int, aside: bool) -> np.ndarray:
