@@ -121,12 +121,14 @@ class ThingKind:
     is_solid = False  # whether it stands in the way, although nobody holds it
     is_loose = False  # whether it gives way when it is pushed
     is_robot = False  # whether it is another robot in the same world, with a mind
+    paid = 1  # 0 where it is a robot to which nothing happens that counts
     walks = False  # whether it moves by itself
     wanders = False  # whether it goes another way in each run
     ways: Alternatives = ()  # of which one is drawn for each of it
     speed = 0.0  # at which it does, in units per second
     can_be_held = False  # whether a claw can take it
     can_be_delivered = False  # whether it counts as delivered when it comes into a zone
+    is_steep = False  # whether it is a slope
     is_area = False  # whether it lies on the floor, so that a robot or an item can be inside
     takes_items = False  # whether items are delivered into it
     charges = False  # whether the battery charges in it

@@ -26,7 +26,7 @@ def sense(tables: Tables, state: State, lanes: int, clock: int) -> None:
         look(tables, world, sight, lanes)
         if len(tables.loose) > 0:
             look_at_loose(tables, world, sight, 0, len(tables.ray_row), lanes)
-        if len(tables.mates) > 0:
+        if len(tables.robots) > 1:
             look_at_robots(tables, world, sight, 0, len(tables.ray_row), lanes)
     sight.nearest_of[0] = -1
     for i in range(len(tables.sensors)):
@@ -53,7 +53,7 @@ def face(tables: Tables, world: WorldState, sight: SightState, i: int, is_turned
         cast(tables, sight, first, last, lanes)
         if len(tables.loose) > 0:
             look_at_loose(tables, world, sight, first, last, lanes)
-        if len(tables.mates) > 0:
+        if len(tables.robots) > 1:
             look_at_robots(tables, world, sight, first, last, lanes)
 
 
@@ -196,20 +196,36 @@ def look_at_loose(tables: Tables, world: WorldState, sight: SightState, first: i
                 meet_box(rows, frame, cosine, sine, out, lanes)
 
 
-@unit_where(lambda tables: len(tables.mates) > 0 and tables.world[0]["rays"] > 0)
+@unit_where(lambda tables: len(tables.robots) > 1 and tables.world[0]["rays"] > 0)
 def look_at_robots(tables: Tables, world: WorldState, sight: SightState, first: int, last: int, lanes: int) -> None:
-    """Shorten each of some rays that meets another robot, but for one of those that its own sensor looks for."""
-    rows, frame, body = sight.sight, sight.frame, world.body
-    for i in range(len(tables.mates)):
-        thing = tables.mates[i].thing
-        for lane in range(lanes):
-            x, y = place_of(world.things, thing, lane)
-            frame[LOOSE_COSINE, lane], frame[LOOSE_SINE, lane] = ONE, ZERO
-            frame[LOOSE_X, lane], frame[LOOSE_Y, lane] = F(x - body[X, lane]), F(y - body[Y, lane])
-            frame[LOOSE_HALF, lane] = F(tables.world[0].radius)
-        for ray in range(first, last):
-            if not (tables.passes[0, ray] <= thing) & (thing < tables.passes[1, ray]):
-                meet_ball(rows, frame, tables.rays[COSINE, ray], tables.rays[SINE, ray], rows[FIRST_RAY + ray], lanes)
+    """Shorten each of some rays that meets another robot, but for one of those that its own sensor looks for.
+
+    One that is farther away than any ray reaches is not looked at.
+    """
+    rows, body, robots, radius = sight.sight, world.body, len(tables.robots), F(tables.world[0].radius)
+    most = tables.world[0].near + tables.world[0].radius
+    for lane in range(lanes):
+        home = lane - lane % robots
+        for other in range(home, home + robots):
+            dx, dy = body[X, other] - body[X, lane], body[Y, other] - body[Y, lane]
+            if other == lane or not dx * dx + dy * dy < most * most:
+                continue
+            thing = tables.robots[other - home].thing
+            for ray in range(first, last):
+                if not (tables.passes[0, ray] <= thing) & (thing < tables.passes[1, ray]):
+                    far = rows[FIRST_RAY + ray, lane]
+                    rows[FIRST_RAY + ray, lane] = to_disc(tables, rows, ray, F(dx), F(dy), radius, far, lane)
+
+
+def to_disc(tables, rows, ray, x, y, radius, far, lane):
+    """How far a ray goes that would go so far, where a disc of a radius stands (x, y) from the robot's middle."""
+    ahead, aside = rows[SIGHT_COSINE, lane], rows[SIGHT_SINE, lane]
+    cosine, sine = tables.rays[COSINE, ray], tables.rays[SINE, ray]
+    c, s = ahead * cosine - aside * sine, aside * cosine + ahead * sine
+    across = x * s - y * c
+    room = radius * radius - across * across
+    enter = x * c + y * s - np.sqrt(room if room > ZERO else ZERO)
+    return enter if (room >= ZERO) & (enter >= ZERO) & (enter < far) else far
 
 
 def enter_frame(tables, world, frame, i, lanes):
