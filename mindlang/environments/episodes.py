@@ -3,7 +3,7 @@
 A program commands every actuator, or plays a skill of the hierarchy.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from gymnasium.spaces import Box
 from mindrun.errors import MindError
-from mindrun.graph.graph import Graph, Skill
+from mindrun.graph.graph import Skill
 from mindrun.graph.policy import Policy
-from mindrun.graph.weights import reachable
+from mindrun.graph.skill_sets import acting, owners
 from mindrun.numbers.arrays import Bools
 from mindrun.sim.commanded_lanes import CommandedLanes, commanded_lanes, ended_by
 from mindrun.sim.rollout import Rollout
@@ -30,7 +30,7 @@ from mindlang.pictures.scene import draw_items, draw_names, draw_robot, draw_zon
 from mindlang.pictures.theme import NIGHT
 from mindlang.run.chosen_task import master_of, task_of, unknown
 from mindlang.run.recorded_run import RecordedRun
-from mindlang.run.setup import RunSetup, untaught_skills
+from mindlang.run.setup import RunSetup
 
 Floats = NDArray[np.float32]
 SEED_COUNT = 1 << 64  # layouts
@@ -113,7 +113,7 @@ def episodes_of(file: Path, task: str | None, master: str | None, skill: str | N
     leader = master_of(mind.graph, chosen, master)
     ready = ReadyMind(Policy(mind.graph, {}), (), ())  # no skill runs, so none needs its weights
     several = commanded_lanes(mind.graph, chosen.name, leader, runs)
-    seen = {row for each in reachable(mind.graph, leader) for row in each.inputs}
+    seen = {row for each in acting(mind.graph, chosen, leader) for row in each.inputs}
     sensed = sum(sensor.width for sensor in mind.graph.sensors)  # behind these are the memories of skills
     rows = np.array(sorted(row for row in seen if row < sensed), np.int64)
     setup = RunSetup(chosen, leader, ready, mind.path.absolute().parent)
@@ -128,9 +128,10 @@ def _of_skill(mind: Mind, task: str | None, master: str | None, skill: str, runs
     chosen, _ = task_of(graph, task or (lesson.task if lesson else None))
     is_its_lesson = lesson is not None and lesson.task == chosen.name
     leader = master_of(graph, chosen, master or (lesson.master if lesson and is_its_lesson else None))
-    played = _played(graph, leader, skill)
-    ready = make_ready(graph, mind.compiled.sources, leader)
-    if missing := [name for name in untaught_skills(ready) if name != played.owner]:
+    acts = acting(graph, chosen, leader)
+    played = _played(acts, leader, skill)
+    ready = make_ready(graph, mind.compiled.sources, leader, chosen)
+    if missing := [name for name in reversed(owners(acts)) if name not in {played.owner, *ready.policy.weights}]:
         raise MindError(ready.refusals[-1], command_line("mindc", "train", mind.path, *missing))
     folder = mind.path.absolute().parent
     rollout = Rollout(ready.policy, chosen.name, leader, [skill], procedures=folder)
@@ -141,9 +142,8 @@ def _of_skill(mind: Mind, task: str | None, master: str | None, skill: str, runs
     return Episodes(RunSetup(chosen, leader, ready, folder), several, inputs, played.outputs, row, skill)
 
 
-def _played(graph: Graph, master: str, name: str) -> Skill:
-    """The skill of that name; MindError where nobody can play it."""
-    reached = reachable(graph, master)
+def _played(reached: Sequence[Skill], master: str, name: str) -> Skill:
+    """The skill of that name among those that act; MindError where nobody can play it."""
     skill = next((each for each in reached if each.name == name), None)
     if skill is None:
         raise MindError(f"{name} is not below {master}", f"name a master that influences it: master={name!r}")

@@ -31,6 +31,11 @@ TEAM = """task Team in arena size 16
   rewards -20 on collision with mate
   counts collision with mate
 """
+TURN = """skill Turn is rule
+  reads quick
+  drives left_wheel at quick
+  drives right_wheel at 0.8
+"""
 ALONE = """task Alone in arena size 16
   contains object is item size 1
   lasts 9 ticks
@@ -41,7 +46,7 @@ AGENTS = ["robot_0", "robot_1", "robot_2", "robot_3"]
 
 @pytest.fixture
 def team(tmp_path: Path) -> Path:
-    (path := tmp_path / "team.mind").write_text(f"mind 1\n{TOGETHER}{TEAM}{ALONE}", encoding="utf-8")
+    (path := tmp_path / "team.mind").write_text(f"mind 1\n{TOGETHER}{TURN}{TEAM}{ALONE}", encoding="utf-8")
     return path
 
 
@@ -53,12 +58,23 @@ def test_pettingzoo_finds_nothing_wrong(team: Path, task: str) -> None:
     state_test(parallel_to_aec(env), env)
 
 
-@pytest.mark.parametrize("more", ["", "  ends on collision with mate\n"])
-def test_under_the_commands_of_their_mind_it_is_the_run_of_its_layout(team: Path, more: str) -> None:
-    team.write_text(team.read_text("utf-8").replace(TEAM, TEAM + more), "utf-8")
+@pytest.mark.parametrize(
+    ("old", "new", "end"),
+    [
+        ("", "", "time"),
+        ("  counts", "  ends on collision with mate\n  counts", "collision with mate"),
+        ("count 3", "\n  contains rival is robot count 2 paid 0 under Turn", "time"),
+    ],
+)
+def test_under_the_commands_of_their_minds_it_is_the_run_of_its_layout(
+    team: Path, old: str, new: str, end: str
+) -> None:
+    team.write_text(team.read_text("utf-8").replace(TEAM, TEAM.replace(old, new) if old else TEAM), "utf-8")
     mind, env = mindlang.load(team), ParallelTask(team, "Team")
-    rollout, minds = mind.rollout("Team"), {agent: mind.engine() for agent in AGENTS}
-    rows, ended = env._episodes.readings, set()
+    masters = ["Drift", "Drift", *["Turn" if "rival" in new else "Drift"] * 2]
+    rollout, minds = mind.rollout("Team"), {a: mind.engine(m) for a, m in zip(AGENTS, masters, strict=True)}
+    teammates = [agent for agent, master in zip(AGENTS, masters, strict=True) if master == "Drift"]
+    rows, ended, paid_apart = env._episodes.readings, set(), 0
     for seed in range(8):
         scores, first = rollout.score(np.zeros((1, 0), np.float32), [seed]), list(mind.trace("Team", seed).moments)
         seen, told = env.reset(seed=seed)
@@ -74,18 +90,20 @@ def test_under_the_commands_of_their_mind_it_is_the_run_of_its_layout(team: Path
                 readings[agent][rows] = seen[agent]
             seen, paid, *over, told = env.step({agent: minds[agent].tick(readings[agent]) for agent in AGENTS})
             assert [*map(set, (seen, paid, *over, told))] == [set(AGENTS)] * 5
-            total, ticks = total + sum(paid.values()) / len(paid), ticks + 1
+            total, ticks = total + sum(paid[agent] for agent in teammates) / len(teammates), ticks + 1
             own = {agent: own[agent] + paid[agent] for agent in AGENTS}
             assert own["robot_0"] == first[ticks - 1].lines.sum()
         assert ticks == scores.ticks[0, 0]
-        assert total == scores.total[0, 0]  # whole numbers, and a quarter of their sum
-        assert len({*own.values()}) > 1
+        assert total == scores.total[0, 0]  # whole numbers, and a half or a quarter of their sum
+        paid_apart += len({own[agent] for agent in teammates}) > 1
+        assert {own[agent] for agent in AGENTS if agent not in teammates} <= {0.0}
         ends = {name: {*each.values()} for name, each in zip(("terminated", "truncated"), over, strict=True)}
         assert ends == {"terminated": {ticks < 300}, "truncated": {ticks == 300}}
         outcome = {"layout": seed, "score": scores.total[0, 0], "count": scores.counts[0, 0]}
         assert told == {agent: outcome | {"ended_by": told["robot_0"]["ended_by"]} for agent in AGENTS}
         ended.add(told["robot_0"]["ended_by"])
-    assert ended == ({"collision with mate"} if more else {"time"})
+    assert ended == {end}
+    assert paid_apart
 
 
 def test_who_cannot_act_is_told(team: Path) -> None:

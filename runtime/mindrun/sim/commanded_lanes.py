@@ -6,7 +6,7 @@ that a mind computes, a run is bit for bit what `Rollout` makes of its seed.
 """
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -47,7 +47,8 @@ class CommandedLanes:
 
     def __init__(self, rollout: Rollout, runs: int) -> None:
         self.rollout, self.count = rollout, runs
-        self.robots = int(rollout.tables.world[0]["robots"])
+        self.robots, is_paid = len(rollout.tables.robots), rollout.tables.robots["paid"] == 1
+        self._paid, self._unpaid = np.flatnonzero(is_paid), np.flatnonzero(np.tile(~is_paid, runs))
         self.lanes = runs * self.robots
         self.tile = rollout.tile(runs)
         self.state: State = self.tile.state
@@ -126,9 +127,9 @@ class CommandedLanes:
 
     @property
     def lines(self) -> Doubles:
-        """The sum that each reward line has paid in each run [runs, lines]: the mean over its robots."""
-        written = self.jobs.lines
-        return np.where(self._lost[:, None], written, self._summed(self.state.judge.lines, written) / self.robots)
+        """The sum that each reward line has paid in each run [runs, lines]: the mean over the robots that are paid."""
+        written, paid = self.jobs.lines, self._paid
+        return np.where(self._lost[:, None], written, self._summed(self.state.judge.lines, written, paid) / len(paid))
 
     @property
     def scores(self) -> Doubles:
@@ -137,21 +138,24 @@ class CommandedLanes:
 
     @property
     def paid(self) -> Doubles:
-        """The sum that all reward lines have paid each robot [lanes]."""
-        return np.asarray(score_of(self._of_robots(self.state.judge.lines, self.jobs.lines)))
+        """The sum that all reward lines have paid each robot [lanes]; 0 for one that is not paid."""
+        found = np.asarray(score_of(self._of_robots(self.state.judge.lines, self.jobs.lines)))
+        found[self._unpaid] = 0.0
+        return found
 
     @property
     def counts(self) -> Integers:
         """The number of times that each event of the task has happened to the robots of each run [runs, events]."""
         written = self.jobs.counts
-        found = np.where(self._lost[:, None], written, self._summed(self.state.judge.counts, written))
+        each = range(self.robots)
+        found = np.where(self._lost[:, None], written, self._summed(self.state.judge.counts, written, each))
         return found[:, : len(self.rollout.task.events)]
 
-    def _summed(self, rows: Array, written: Array) -> Array:
-        """The sums over the robots of each run [runs, columns], in their order, as they would be `written` down."""
+    def _summed(self, rows: Array, written: Array, numbers: Iterable[int]) -> Array:
+        """The sums over these robots of each run [runs, columns], in their order, as they would be `written` down."""
         each = rows[: written.shape[1], : self.lanes].T
         found = np.zeros_like(written)
-        for number in range(self.robots):
+        for number in numbers:
             found += each[number :: self.robots]
         return found
 
