@@ -24,11 +24,12 @@ class ParallelTask(ParallelEnv[str, Floats, Floats], EzPickle):
     """A task of a mind, in which each robot of the world is an agent, and commands its actuators, or plays a skill.
 
     The agents are `robot_0` for the robot that the mind is of, and `robot_1`, `robot_2` … for those that the task
-    contains, in the order of the source. All see and do what the one agent of a `TaskEnv` would.
+    contains, in the order of the source. All have the spaces of a `TaskEnv`, of every reading that a skill of any robot
+    reads.
 
     `reset(seed=3)` begins the layout of `mindc run --seed 3`; without a seed, layouts are drawn. The reward of an agent
-    is what the reward lines pay its robot in the tick, so the mean over all agents, summed over an episode, is the
-    score of the run. The task's ends terminate an episode for all agents in the same step, its time truncates it for
+    is what the reward lines pay its robot in the tick, and 0 for a robot with `paid 0`; the mean over all others,
+    summed over an episode, is the score of the run. The task's ends terminate an episode for all agents in the same step, its time truncates it for
     all. Pickled by its arguments: a copy begins anew.
     """
 

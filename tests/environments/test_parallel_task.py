@@ -27,6 +27,7 @@ TEAM = """task Team in arena size 16
   contains mate is robot count 3
   contains object is item size 1 count 2
   lasts 300 ticks
+  rewards 1 per tick
   rewards 30 on collision
   rewards -20 on collision with mate
   counts collision with mate
