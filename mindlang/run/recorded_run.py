@@ -151,18 +151,18 @@ class RunResult:
 
 def run_result(setup: RunSetup, rollout: Rollout, seed: int, changes: Sequence[Change] = ()) -> RunResult:
     """The run of a seed, with changes, and its outcome."""
-    return result_of_trace(setup, trace(rollout, seed, changes=changes), seed)
+    return result_of_trace(setup, trace(rollout, seed, changes=changes, robot=setup.robot), seed)
 
 
 def result_of_trace(setup: RunSetup, run: Trace, seed: int) -> RunResult:
     """Make a run of that seed that is about to begin, write it down, and return it with its outcome."""
     written = recorded(setup, run)
     found = run_data(setup.task, scores_of(run.jobs, setup.task))
-    return RunResult(written, run_names(setup.task, setup.master, seed) | found)
+    return RunResult(written, run_names(setup.task, setup.master, seed, setup.robot) | found)
 
 
 def record_run(setup: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:
-    return recorded(setup, trace(rollout, seed))
+    return recorded(setup, trace(rollout, seed, robot=setup.robot))
 
 
 def recorded(setup: RunSetup, run: Trace) -> RecordedRun:

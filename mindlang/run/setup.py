@@ -21,7 +21,7 @@ from mindlang.compiler.diagnostic import listed
 from mindlang.executors.jobs import Block, JobScorer, empty_scores, write_scores
 from mindlang.limits import RUN_BOUNDS, SEED_BOUNDS, bounded_int
 from mindlang.lock.status import ReadyMind, make_ready
-from mindlang.run.chosen_task import SetupError, master_of, task_of
+from mindlang.run.chosen_task import SetupError, master_of, robot_of, task_of
 from mindlang.run.edge_flow import EdgeFlows, ReadingsAndInfluence, edge_flows
 
 if TYPE_CHECKING:
@@ -33,13 +33,17 @@ SLICE_RUNS = 1 << 16  # that are begun together, so that memory is for their res
 
 @dataclass(frozen=True, slots=True)
 class RunSetup:
-    """A task, the master in charge of it, and a mind that is ready to run; `note` says why it is this task."""
+    """A task, the master in charge of it, and a mind that is ready to run; `note` says why it is this task.
+
+    Of several robots in its world one is watched, by its number from 0 on: what is written down of a run is its mind.
+    """
 
     task: Task
     master: str
     ready: ReadyMind
     folder: Path
     note: str = ""
+    robot: int = 0
 
     @property
     def is_one_world(self) -> bool:
@@ -78,18 +82,22 @@ class RunSetup:
         return rollout_for(of, task, self.master, procedures=self.folder, interrupt=interrupt, workers=workers)
 
 
-def set_up(file: str, compiled: Compiled, task: str | None, master: str | None, untaught: bool = False) -> RunSetup:
+def set_up(
+    file: str, compiled: Compiled, task: str | None, master: str | None, untaught: bool = False, robot: int = 0
+) -> RunSetup:
     """The task and the master of these names, or the default ones; SetupError where they cannot run.
 
-    Where skills may be `untaught`, those that are have weights of 0.
+    Where skills may be `untaught`, those that are have weights of 0. Of several robots that of the number is watched.
     """
     _, graph = compiled.whole
     chosen, note = task_of(graph, task)
     leader = master_of(graph, chosen, master)
-    folder = compiled.sources[0].folder
+    watched, folder = robot_of(chosen, robot), compiled.sources[0].folder
     if untaught:
-        return RunSetup(chosen, leader, with_zero_weights(make_ready(graph, compiled.sources, leader)), folder, note)
-    return RunSetup(chosen, leader, ready_to_act(file, compiled, leader), folder, note)
+        ready = with_zero_weights(make_ready(graph, compiled.sources, leader))
+    else:
+        ready = ready_to_act(file, compiled, leader)
+    return RunSetup(chosen, leader, ready, folder, note, watched)
 
 
 def ready_to_act(file: str, compiled: Compiled, master: str | None = None) -> ReadyMind:

@@ -31,6 +31,11 @@ def installed_version(package: str) -> str:
         return ""
 
 
+def robots_in(task: Task) -> int:
+    """The number of robots in the world of a task: the first, and those that it contains."""
+    return 1 + sum(thing.kind.copies for thing in task.things if thing.kind.is_robot)
+
+
 def default_task(graph: Graph) -> tuple[Task, str]:
     """The task to run where none is named, and a sentence why it is this one; "" where that goes without saying."""
     tasks = {task.name: task for task in graph.tasks}
