@@ -12,7 +12,7 @@ from mindrun.graph.recording_header import GOES_ON
 from mindrun.graph.skill_sets import movers
 from mindrun.sim.codes import AWAY
 from mindrun.sim.rollout import Rollout, scores_of
-from mindrun.sim.task_rows import things_of
+from mindrun.sim.task_rows import others_seen, things_of
 from mindrun.sim.trace import Trace, joined, trace
 from numpy.typing import NDArray
 
@@ -83,6 +83,12 @@ class RecordedRun:
     @property
     def contents(self) -> list[Thing]:
         return things_of(self.task)
+
+    @property
+    def labels(self) -> list[str]:
+        """The names of the `contents`; of a robot, which one it is: `robot 2`."""
+        others = others_seen(self.task, self.setup.robot)
+        return [f"robot {others[i]}" if i in others else thing.name for i, thing in enumerate(self.contents)]
 
     @property
     def collisions(self) -> NDArray[np.int64]:
