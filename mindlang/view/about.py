@@ -8,9 +8,10 @@ from mindrun.graph.graph import Graph, Skill, Task
 from mindrun.graph.named_readings import named_places, reading_names, servo_reading
 from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import About
+from mindrun.graph.tasks import robots_in
 from mindrun.kinds.registry import names
 from mindrun.robot.hand import hand_on
-from mindrun.sim.task_rows import opened_boxes, things_of
+from mindrun.sim.task_rows import opened_boxes, others_seen, things_of
 
 from mindlang.pictures.scene import half_sides, thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, code
@@ -47,6 +48,7 @@ def about_data(
         "tick": of.tick,
         "task": shown(task.name) if task else None,
         "seed": str(of.world.seed) if task and of.world else None,
+        "robot": of.world.robot if task and of.world and robots_in(task) > 1 else None,
         "rewards": [shown(text) for text in rewards],
         "ends": [shown(text) for text in outcome.ends(task)] if task else [],
         "world": _world(graph, task, of, columns) if task and of.world and has_robot else None,
@@ -183,6 +185,7 @@ def _world(graph: Graph, task: Task, of: About, columns: Columns) -> Data:
     colours = zip(thing_colours(contents, PAPER), thing_colours(contents, NIGHT), strict=True)
     assert of.world
     body, opened, world = graph.body, opened_boxes(task), of.world
+    others = others_seen(task, world.robot)
     standing = [(number, box) for number, box in enumerate(world.boxes) if box]
     return {
         "arena": [*half_sides(task.scene)] if task.scene.is_bounded else None,
@@ -195,8 +198,9 @@ def _world(graph: Graph, task: Task, of: About, columns: Columns) -> Data:
                 "shape": "area" if thing.kind.is_area else "disc" if thing.kind.is_round else "square",
                 "light": code(light),
                 "dark": code(dark),
+                "robot": others.get(row),
             }
-            for thing, (light, dark) in zip(contents, colours, strict=True)
+            for row, (thing, (light, dark)) in enumerate(zip(contents, colours, strict=True))
         ],
         "robot": {
             "radius": body.radius,

@@ -19,6 +19,7 @@ from mindlang.compiler.compile import load
 from mindlang.compiler.drawing import text_after_name
 from mindlang.files import Stamp, stamp
 from mindlang.lock.status import ReadyMind
+from mindlang.run.chosen_task import robot_of
 from mindlang.run.setup import RunSetup
 from mindlang.training.subject import Subject, is_mind_of, open_subject
 from mindlang.view.about import Texts
@@ -127,11 +128,12 @@ class Learning:
         number = max(playable, key=lambda number: self.runs[number].grown)
         return number, *self.runs[number].champions[-1].position
 
-    def begin(self, number: int, attempt: int, generation: int, seed: int | None = None) -> Viewed:
+    def begin(self, number: int, attempt: int, generation: int, seed: int | None = None, robot: int = 0) -> Viewed:
         """The run of a champion, which has not begun but for its beginning; MindError where it cannot be made."""
         learnt = self.runs[number]
         champion = learnt.champion(attempt, generation)
         setup, texts = self._setup(learnt.run, champion.genome)
+        setup = replace(setup, robot=robot_of(setup.task, robot))
         viewed = ViewedRun(setup, setup.rollout(), self.seed if seed is None else seed, texts).begun()
         viewed.about = {
             **viewed.about,
@@ -144,6 +146,7 @@ class Learning:
                 "score": learnt.score(attempt, generation),
             },
         }
+        viewed.watched = lambda robot: self.begin(number, attempt, generation, seed, robot)
         viewed.grow()
         return viewed
 

@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Breakpoint
 from mindlang.breakpoints.watch import RowBlock, watcher
+from mindlang.run.chosen_task import robot_of
 from mindlang.run.outcome import run_names, seed_words
 from mindlang.run.recording import about_of, bundle_without_robot, recorded_rows, world_of
 from mindlang.run.setup import RunSetup
@@ -66,7 +67,14 @@ class ViewedRun:
         title = f"{task.name} with {setup.master} in charge, {seed_words(names)}"
         rows, watch = _rows(run, of, len(task.events)), self._watch()
         viewed = viewed_rows(title, RUN, of, mind, task, setup.folder, rows, task.ticks, watch, self.texts)
-        viewed.forked = partial(self._forked, viewed.columns)
+        viewed.forked, viewed.watched = partial(self._forked, viewed.columns), self._watched
+        return viewed
+
+    def _watched(self, robot: int) -> Viewed:
+        """The run seen through another robot, as far as its beginning; SetupError where there is no such robot."""
+        setup = replace(self.setup, robot=robot_of(self.setup.task, robot))
+        viewed = replace(self, setup=setup, changes=()).begun()
+        viewed.grow()
         return viewed
 
     def _watch(self) -> Watch | None:

@@ -3,6 +3,7 @@
 import type { About } from "./protocol";
 
 export function shapeOf(about: About): string {
-  const { title, seed, edits, training, world, links, ...shape } = about;
-  return JSON.stringify({ ...shape, world: world && { ...world, boxes: null } });
+  const { title, seed, robot, edits, training, world, links, ...shape } = about;
+  const things = world?.things.map((thing) => ({ ...thing, robot: null }));
+  return JSON.stringify({ ...shape, world: world && { ...world, boxes: null, things } });
 }

@@ -71,7 +71,7 @@ export class View {
     const jump = (tick: number) => this.playback.jump(tick);
     this.rows = new Rows(about, 0, send, redraw);
     this.playback = new Playback(about.tick, (tick, ahead, every) => !!this.rows.row(tick, ahead, every), redraw, (tick) => this.want(tick), about.of_ticks);
-    this.world = about.world && new World(element<HTMLCanvasElement>("world"), about, about.world, theme(), redraw);
+    this.world = about.world && new World(element<HTMLCanvasElement>("world"), about, about.world, theme(), redraw, (robot) => this.watch(robot));
     this.seen = new Seen(about, send, redraw);
     const shows = { over: (at: Selected, event: PointerEvent) => this.selection.point(at, event), chosen: (at: Selected) => this.choose(at) };
     this.hierarchy = new Hierarchy(svgElement("hierarchy"), element<HTMLCanvasElement>("edges"), about, shows, redraw);
@@ -89,7 +89,7 @@ export class View {
     const followed = (newest: boolean) => (follows.newest = newest);
     this.learning = about.training ? new Learning(about, trainings, send, theme(), follows.newest, followed) : null;
     this.transport = new Transport(this.playback, this.timeline, about.tick, about.source in LIVE);
-    const parts = { ...this.parts(), follow: () => this.follow() };
+    const parts = { ...this.parts(), follow: () => this.follow(), nextRobot: () => this.nextRobot() };
     showTitle(about);
     listenToButtons(parts);
     const keys = keysOf(parts, () => search.focus(), () => element<HTMLDialogElement>("keys").showModal());
@@ -106,6 +106,8 @@ export class View {
   /** Goes on with another run that differs only in what it comes to; false where it is of another shape. */
   restart(about: About): boolean {
     if (shapeOf(about) !== shapeOf(this.about)) return false;
+    const { sought } = this.playback;
+    const isOfAnother = about.seed === this.about.seed && about.robot !== this.about.robot;
     const plays = this.playback.playing || (this.playback.over && this.playback.tick >= this.playback.known);
     const follows = about.source in LIVE && (plays || this.playback.following);
     if (about.world) Object.assign(this.about.world!, about.world);
@@ -115,9 +117,21 @@ export class View {
     this.learning?.restarted();
     showTitle(about);
     this.want(FIRST_TICKS);
-    if (follows) this.playback.end();
+    if (isOfAnother) this.playback.resume(sought, plays);
+    else if (follows) this.playback.end();
     else if (plays) this.playback.play();
     return true;
+  }
+
+  /** Asks for the run as another robot of its world has it. */
+  private watch(robot: number): void {
+    this.send({ say: "watch", robot });
+  }
+
+  private nextRobot(): void {
+    const { robot, world } = this.about;
+    const others = world?.things.filter((thing) => thing.robot !== null) ?? [];
+    if (robot !== null) this.watch((robot + 1) % (1 + others.length));
   }
 
   /** This page shows something else now. */
