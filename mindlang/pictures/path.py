@@ -110,7 +110,7 @@ def draw_former(canvas: Canvas, run: RecordedRun) -> None:
     Of what walks or was pushed also the way; what can be pushed was first where it appeared.
     """
     for number, (thing, colour) in enumerate(zip(run.contents, thing_colours(run.contents, PAPER), strict=True)):
-        former = [] if thing.kind.is_robot else run.former(number)
+        former = run.former(number)[: 0 if thing.kind.is_robot else None]
         if thing.kind.walks or thing.kind.is_loose:
             for stretch in run.stretches(number):
                 canvas.line(stretch, colour, 1.0, 0.5)

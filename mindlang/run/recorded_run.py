@@ -12,8 +12,8 @@ from mindrun.graph.recording_header import GOES_ON
 from mindrun.graph.skill_sets import movers
 from mindrun.sim.codes import AWAY
 from mindrun.sim.rollout import Rollout, scores_of
-from mindrun.sim.task_rows import others_seen, things_of
-from mindrun.sim.trace import Trace, joined, trace
+from mindrun.sim.task_rows import things_of
+from mindrun.sim.trace import Trace, joined, others_seen, trace
 from numpy.typing import NDArray
 
 from mindlang.run.outcome import run_data, run_names

@@ -11,7 +11,8 @@ from mindrun.graph.recording_header import About
 from mindrun.graph.tasks import robots_in
 from mindrun.kinds.registry import names
 from mindrun.robot.hand import hand_on
-from mindrun.sim.task_rows import opened_boxes, others_seen, things_of
+from mindrun.sim.task_rows import opened_boxes, things_of
+from mindrun.sim.trace import others_seen
 
 from mindlang.pictures.scene import half_sides, thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, code

@@ -145,7 +145,17 @@ class WatchRobot(_PageMessage, tag="watch", frozen=True):
 
 
 Message = (
-    AskRows | AskColumns | AskImage | AskRun | AskShares | AskChange | PlayChampion | SayOrder | SayHand | PlaySeed | WatchRobot
+    AskRows
+    | AskColumns
+    | AskImage
+    | AskRun
+    | AskShares
+    | AskChange
+    | PlayChampion
+    | SayOrder
+    | SayHand
+    | PlaySeed
+    | WatchRobot
 )
 _DECODER: msgspec.json.Decoder[Message] = msgspec.json.Decoder(Message)
 

@@ -269,7 +269,7 @@ def _column(found: dict[str, Any], was: dict[str, Any], now: dict[str, Any]) -> 
 def comparison_data(request: Request, compared: Compared) -> dict[str, Any]:
     """The contents of `--json`; `differs` has the first tick of each kind of number, the earliest first."""
     was, now = compared.was.found, compared.now.found
-    of_both = {name: was[name] for name in ("task", "master", "seed", "robot") if name in was}
+    of_both: dict[str, Any] = {name: was[name] for name in ("task", "master", "seed", "robot") if name in was}
     was, now = ({name: value for name, value in found.items() if name not in of_both} for found in (was, now))
     differs = [each.as_data() for each in compared.differences]
     return {**of_both, **_asked(request), "differs": differs, "as_it_was": was, "changed": now}

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from mindrun.engine.changes import Change, What
 from mindrun.numbers.arithmetic import ANGLE, Y, place_of
-from mindrun.sim.task_rows import others_seen
-from mindrun.sim.trace import Ticks, joined, trace
+from mindrun.sim.trace import Ticks, joined, others_seen, trace
 
 from tests.sim.test_teams import ROCKS, drifters, ticks
 

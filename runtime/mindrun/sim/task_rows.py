@@ -68,14 +68,6 @@ def robot_rows(task: Task) -> list[int]:
     return [row for row, thing in enumerate(things_of(task)) if thing.kind.is_robot]
 
 
-def others_seen(task: Task, robot: int) -> dict[int, int]:
-    """The rows of `things_of` that are robots in the world of a robot, and the number of the one that each is there.
-
-    What a robot is to the first, the first is to it.
-    """
-    return {row: 0 if number == robot else number for number, row in enumerate(robot_rows(task), 1)}
-
-
 class HashNumbers(NamedTuple):
     """The numbers that Chipmunk would give to shapes, in the order in which they are added: boxes, walls, the robots,
     what the first may hold, what the next may …, what is loose.

@@ -13,6 +13,7 @@ import numpy as np
 
 from mindrun.engine.changes import Change, Changed, ChangeError, calm_ticks, in_tick
 from mindrun.engine.think import in_scopes
+from mindrun.graph.graph import Task
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, COSINE, LOOSE_ROWS, SINE, SIZE, THING_ROWS, TURN
 from mindrun.numbers.arrays import Array, Bools, Doubles, Integers, Singles
 from mindrun.numbers.short_repr import ShortRepr
@@ -21,6 +22,7 @@ from mindrun.sim.lanes.advance import before
 from mindrun.sim.procedures import Memories
 from mindrun.sim.rollout import Rollout, Tile
 from mindrun.sim.state import FIXED, ROBOT, ROBOT_SOLIDS, Jobs, State, recorded
+from mindrun.sim.task_rows import robot_rows
 
 Advance = Callable[[Tile, Jobs, int], int]
 CHUNK_TICKS, CHUNK_BYTES = 256, 1 << 22  # of a run at once, or fewer where a tick is large
@@ -150,6 +152,14 @@ def joined(chunks: Iterable[Ticks]) -> Ticks:
     each = list(chunks)
     columns = {name: [getattr(ticks, name) for ticks in each] for name in Ticks.__slots__}
     return Ticks(**{name: np.concatenate(parts) for name, parts in columns.items()})
+
+
+def others_seen(task: Task, robot: int) -> dict[int, int]:
+    """The rows of things that are robots in the world of a robot, and the number of the one that each is there.
+
+    What a robot is to the first, the first is to it.
+    """
+    return {row: 0 if number == robot else number for number, row in enumerate(robot_rows(task), 1)}
 
 
 def things_in(rollout: Rollout, state: State, lane: int) -> Doubles:
