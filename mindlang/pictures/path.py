@@ -89,7 +89,7 @@ def draw_start(canvas: Canvas, run: RecordedRun) -> None:
 def draw_others(canvas: Canvas, run: RecordedRun, theme: Theme, first: int, last: int) -> None:
     """Draw the ways of other robots from a tick to another."""
     for number, (thing, colour) in enumerate(zip(run.contents, thing_colours(run.contents, theme), strict=True)):
-        if thing.kind.is_robot:
+        if thing.kind.is_robot and np.isfinite(run.things[0, number, 0]):  # itself is nowhere among the things
             canvas.line(run.things[first : last + 1, number, :2], colour, OTHERS_PIXELS, OTHERS_ALPHA)
 
 

@@ -75,6 +75,7 @@ def view_of(run: RecordedRun, width: int, height: int, *others: RecordedRun) -> 
         half = np.add(scene.half_sides(run.task.scene), scene.WALL_UNITS)
         return Viewport.around(-half, half, width, height)
     seen = np.concatenate([places for each in (run, *others) for places in _places(each)])
+    seen = seen[np.isfinite(seen[:, 0])]
     return Viewport.around(seen.min(axis=0) - PLAIN_MARGIN_UNITS, seen.max(axis=0) + PLAIN_MARGIN_UNITS, width, height)
 
 

@@ -13,7 +13,7 @@ from mindrun.graph.skill_sets import movers
 from mindrun.sim.codes import AWAY
 from mindrun.sim.rollout import Rollout, scores_of
 from mindrun.sim.task_rows import things_of
-from mindrun.sim.trace import Trace, joined, others_seen, trace
+from mindrun.sim.trace import Trace, joined, robot_numbers, trace
 from numpy.typing import NDArray
 
 from mindlang.run.outcome import run_data, run_names
@@ -87,8 +87,8 @@ class RecordedRun:
     @property
     def labels(self) -> list[str]:
         """The names of the `contents`; of a robot, which one it is: `robot 2`."""
-        others = others_seen(self.task, self.setup.robot)
-        return [f"robot {others[i]}" if i in others else thing.name for i, thing in enumerate(self.contents)]
+        robots = robot_numbers(self.task)
+        return [f"robot {robots[i]}" if i in robots else thing.name for i, thing in enumerate(self.contents)]
 
     @property
     def collisions(self) -> NDArray[np.int64]:

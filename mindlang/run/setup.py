@@ -35,7 +35,8 @@ SLICE_RUNS = 1 << 16  # that are begun together, so that memory is for their res
 class RunSetup:
     """A task, the master in charge of it, and a mind that is ready to run; `note` says why it is this task.
 
-    Of several robots in its world one is watched, by its number from 0 on: what is written down of a run is its mind.
+    Of several robots in its world one is watched, by its number from 0 on: what is written down of a run is its mind,
+    and the master is its own. That of the first robot is the `first`, where it may be another.
     """
 
     task: Task
@@ -44,11 +45,18 @@ class RunSetup:
     folder: Path
     note: str = ""
     robot: int = 0
+    first: str = ""
+
+    def watching(self, robot: int) -> "RunSetup":
+        """The run seen through another robot of its world; SetupError where there is no such robot."""
+        first = self.first or self.master
+        master = masters_in(self.task, first)[robot_of(self.task, robot)]
+        return replace(self, robot=robot, master=master, first=first)
 
     @property
     def is_one_world(self) -> bool:
         """True if nothing of the task is drawn, so that all of its runs are one."""
-        return is_one_world(self.ready.policy.graph, self.task, self.master)
+        return is_one_world(self.ready.policy.graph, self.task, self.first or self.master)
 
     @property
     def world_notes(self) -> list[str]:
@@ -79,7 +87,9 @@ class RunSetup:
         from mindrun.sim.rollouts import rollout_for
 
         of, task = self.ready.policy, self.task.name
-        return rollout_for(of, task, self.master, procedures=self.folder, interrupt=interrupt, workers=workers)
+        return rollout_for(
+            of, task, self.first or self.master, procedures=self.folder, interrupt=interrupt, workers=workers
+        )
 
 
 def set_up(
@@ -92,18 +102,18 @@ def set_up(
     _, graph = compiled.whole
     chosen, note = task_of(graph, task)
     leader = master_of(graph, chosen, master)
-    watched, folder = robot_of(chosen, robot), compiled.sources[0].folder
+    folder = compiled.sources[0].folder
     if untaught:
-        ready = with_zero_weights(make_ready(graph, compiled.sources, leader))
+        ready = with_zero_weights(make_ready(graph, compiled.sources, leader, chosen))
     else:
-        ready = ready_to_act(file, compiled, leader)
-    return RunSetup(chosen, leader, ready, folder, note, watched)
+        ready = ready_to_act(file, compiled, leader, chosen)
+    return RunSetup(chosen, leader, ready, folder, note).watching(robot)
 
 
-def ready_to_act(file: str, compiled: Compiled, master: str | None = None) -> ReadyMind:
-    """The mind under a master, by default its own; SetupError where a skill has no weights that fit."""
+def ready_to_act(file: str, compiled: Compiled, master: str | None = None, task: Task | None = None) -> ReadyMind:
+    """The mind under a master, by default its own, or of all who act in a task; SetupError without weights that fit."""
     _, graph = compiled.whole
-    ready = make_ready(graph, compiled.sources, master)
+    ready = make_ready(graph, compiled.sources, master, task)
     if ready.refusals:
         raise SetupError("\n".join(ready.refusals), train_command(Path(file), ready))
     return ready

@@ -56,7 +56,10 @@ def trace_table(run: "RecordedRun") -> dict[str, Column]:
 
 def _world(run: "RecordedRun") -> Iterator[tuple[str, Column]]:
     yield from zip(("x", "y", "angle"), run.body[1:].T, strict=False)
+    itself = f"robot {run.setup.robot}"
     for i, (thing, label) in enumerate(zip(run.contents, run.labels, strict=True)):
+        if label == itself:
+            continue
         for k, name in enumerate(("x", "y", "size")):
             yield f"{label} {name}", np.where(np.isfinite(run.things[1:, i, k]), run.things[1:, i, k], np.nan)
         if thing.kind.is_robot:

@@ -12,7 +12,7 @@ from mindrun.graph.tasks import robots_in
 from mindrun.kinds.registry import names
 from mindrun.robot.hand import hand_on
 from mindrun.sim.task_rows import opened_boxes, things_of
-from mindrun.sim.trace import others_seen
+from mindrun.sim.trace import robot_numbers
 
 from mindlang.pictures.scene import half_sides, thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, code
@@ -49,7 +49,8 @@ def about_data(
         "tick": of.tick,
         "task": shown(task.name) if task else None,
         "seed": str(of.world.seed) if task and of.world else None,
-        "robot": of.world.robot if task and of.world and robots_in(task) > 1 else None,
+        "robot": of.world.robot if of.world else 0,
+        "robots": robots_in(task) if task else 1,
         "rewards": [shown(text) for text in rewards],
         "ends": [shown(text) for text in outcome.ends(task)] if task else [],
         "world": _world(graph, task, of, columns) if task and of.world and has_robot else None,
@@ -186,7 +187,7 @@ def _world(graph: Graph, task: Task, of: About, columns: Columns) -> Data:
     colours = zip(thing_colours(contents, PAPER), thing_colours(contents, NIGHT), strict=True)
     assert of.world
     body, opened, world = graph.body, opened_boxes(task), of.world
-    others = others_seen(task, world.robot)
+    robots = robot_numbers(task)
     standing = [(number, box) for number, box in enumerate(world.boxes) if box]
     return {
         "arena": [*half_sides(task.scene)] if task.scene.is_bounded else None,
@@ -199,7 +200,7 @@ def _world(graph: Graph, task: Task, of: About, columns: Columns) -> Data:
                 "shape": "area" if thing.kind.is_area else "disc" if thing.kind.is_round else "square",
                 "light": code(light),
                 "dark": code(dark),
-                "robot": others.get(row),
+                "robot": robots.get(row),
             }
             for row, (thing, (light, dark)) in enumerate(zip(contents, colours, strict=True))
         ],

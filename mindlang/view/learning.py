@@ -19,7 +19,6 @@ from mindlang.compiler.compile import load
 from mindlang.compiler.drawing import text_after_name
 from mindlang.files import Stamp, stamp
 from mindlang.lock.status import ReadyMind
-from mindlang.run.chosen_task import robot_of
 from mindlang.run.setup import RunSetup
 from mindlang.training.subject import Subject, is_mind_of, open_subject
 from mindlang.view.about import Texts
@@ -133,8 +132,7 @@ class Learning:
         learnt = self.runs[number]
         champion = learnt.champion(attempt, generation)
         setup, texts = self._setup(learnt.run, champion.genome)
-        setup = replace(setup, robot=robot_of(setup.task, robot))
-        viewed = ViewedRun(setup, setup.rollout(), self.seed if seed is None else seed, texts).begun()
+        viewed = ViewedRun(setup.watching(robot), setup.rollout(), self.seed if seed is None else seed, texts).begun()
         viewed.about = {
             **viewed.about,
             "source": "training",

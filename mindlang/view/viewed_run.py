@@ -27,7 +27,6 @@ from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Breakpoint
 from mindlang.breakpoints.watch import RowBlock, watcher
-from mindlang.run.chosen_task import robot_of
 from mindlang.run.outcome import run_names, seed_words
 from mindlang.run.recording import about_of, bundle_without_robot, recorded_rows, world_of
 from mindlang.run.setup import RunSetup
@@ -72,8 +71,7 @@ class ViewedRun:
 
     def _watched(self, robot: int) -> Viewed:
         """The run seen through another robot, as far as its beginning; SetupError where there is no such robot."""
-        setup = replace(self.setup, robot=robot_of(self.setup.task, robot))
-        viewed = replace(self, setup=setup, changes=()).begun()
+        viewed = replace(self, setup=self.setup.watching(robot), changes=()).begun()
         viewed.grow()
         return viewed
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from mindrun.engine.changes import Change, What
 from mindrun.numbers.arithmetic import ANGLE, Y, place_of
-from mindrun.sim.trace import Ticks, joined, others_seen, trace
+from mindrun.sim.trace import Ticks, joined, robot_numbers, trace
 
 from tests.sim.test_teams import ROCKS, drifters, ticks
 
@@ -30,8 +30,9 @@ def test_a_trace_through_a_robot_has_its_lane_and_shows_the_others(watched: list
             assert np.array_equal(its.commands[number], state.mind.commands[: its.commands.shape[1], robot])
             assert np.array_equal(its.body[number], state.world.body[:, robot])
             assert its.held[number] == state.world.held[robot]
-            for row, other in others_seen(rollout.task, robot).items():
-                assert np.array_equal(its.things[number, row, : Y + 1], state.world.body[: Y + 1, other])
+            for row, other in robot_numbers(rollout.task).items():
+                place = np.full(2, np.nan) if other == robot else state.world.body[: Y + 1, other]
+                assert np.array_equal(its.things[number, row, : Y + 1], place, equal_nan=True)
                 assert its.turned[number, row] == state.world.body[ANGLE, other]
             for holder in np.flatnonzero(state.world.held[:ROBOTS] >= 0):
                 thing = state.world.held[holder]
@@ -43,11 +44,11 @@ def test_a_trace_through_a_robot_has_its_lane_and_shows_the_others(watched: list
 @pytest.mark.parametrize("what", ["reading", "influence"])
 def test_a_change_is_made_in_the_mind_of_the_robot_that_is_watched(watched: list[Ticks], what: What) -> None:
     rollout, robot, tick = drifters(ROBOTS - 1, ROCKS, 4), 2, 100
-    mates, was = rollout.tables.mates["thing"], watched[robot]
+    others, was = [row for row, number in robot_numbers(rollout.task).items() if number != robot], watched[robot]
     now = joined(trace(rollout, SEED, changes=(Change(what, 0, (0.125,), tick, tick),), robot=robot).chunks)
     assert getattr(now, "readings" if what == "reading" else "influence")[tick - 1, 0] == np.float32(0.125)
     if what == "reading":  # a single skill has all influence, however little
         assert not np.array_equal(now.commands[tick - 1], was.commands[tick - 1])
         assert not np.array_equal(now.body[tick - 1], was.body[tick - 1])
     assert np.array_equal(now.body[: tick - 1], was.body[: tick - 1])
-    assert np.array_equal(now.things[:tick, mates], was.things[:tick, mates])  # the others know nothing of it yet
+    assert np.array_equal(now.things[:tick, others], was.things[:tick, others])  # the others know nothing of it yet

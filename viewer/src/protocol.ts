@@ -101,7 +101,8 @@ export interface About {
   source: "simulation" | "recording" | "robot" | "training" | "environment" | "driven";
   training?: Playing;
   seed: string | null;
-  robot: number | null; // through which one the run is seen, of several
+  robot: number; // through which one the run is seen
+  robots: number; // of how many
   edits: boolean;
   orders: Order[]; // that whoever sees this may say
   drive: Grip[]; // that whoever sees this may drive

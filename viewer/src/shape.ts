@@ -4,6 +4,5 @@ import type { About } from "./protocol";
 
 export function shapeOf(about: About): string {
   const { title, seed, robot, edits, training, world, links, ...shape } = about;
-  const things = world?.things.map((thing) => ({ ...thing, robot: null }));
-  return JSON.stringify({ ...shape, world: world && { ...world, boxes: null, things } });
+  return JSON.stringify({ ...shape, world: world && { ...world, boxes: null } });
 }

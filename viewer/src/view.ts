@@ -129,9 +129,8 @@ export class View {
   }
 
   private nextRobot(): void {
-    const { robot, world } = this.about;
-    const others = world?.things.filter((thing) => thing.robot !== null) ?? [];
-    if (robot !== null) this.watch((robot + 1) % (1 + others.length));
+    const { robot, robots } = this.about;
+    if (robots > 1) this.watch((robot + 1) % robots);
   }
 
   /** This page shows something else now. */

@@ -14,6 +14,7 @@ import numpy as np
 from mindrun.engine.changes import Change, Changed, ChangeError, calm_ticks, in_tick
 from mindrun.engine.think import in_scopes
 from mindrun.graph.graph import Task
+from mindrun.graph.skill_sets import below
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, COSINE, LOOSE_ROWS, SINE, SIZE, THING_ROWS, TURN
 from mindrun.numbers.arrays import Array, Bools, Doubles, Integers, Singles
 from mindrun.numbers.short_repr import ShortRepr
@@ -26,7 +27,7 @@ from mindrun.sim.task_rows import robot_rows
 
 Advance = Callable[[Tile, Jobs, int], int]
 CHUNK_TICKS, CHUNK_BYTES = 256, 1 << 22  # of a run at once, or fewer where a tick is large
-SCALAR_COLUMNS = 3  # held, battery and touching, after the doubles; behind them the angles of the other robots
+SCALAR_COLUMNS = 3  # held, battery and touching, after the doubles; behind them the angles of all robots
 REMEMBERED = ("readings", "before", "measured", "rings", "late", "commands")  # by sensors, memories and actuators
 PARTS = ("tick", "body", "sensors", "memories", "actuators")  # of a graph
 SENSED = ("lane", "start", "width", "before", "held", "ring", "ray", "number", "is_aside")  # what says where it stands
@@ -154,12 +155,9 @@ def joined(chunks: Iterable[Ticks]) -> Ticks:
     return Ticks(**{name: np.concatenate(parts) for name, parts in columns.items()})
 
 
-def others_seen(task: Task, robot: int) -> dict[int, int]:
-    """The rows of things that are robots in the world of a robot, and the number of the one that each is there.
-
-    What a robot is to the first, the first is to it.
-    """
-    return {row: 0 if number == robot else number for number, row in enumerate(robot_rows(task), 1)}
+def robot_numbers(task: Task) -> dict[int, int]:
+    """The number of the robot that each row of things is which is one; in its own world it is nowhere."""
+    return {row: number for number, row in enumerate(robot_rows(task)) if row >= 0}
 
 
 def things_in(rollout: Rollout, state: State, lane: int) -> Doubles:
@@ -171,10 +169,8 @@ def things_in(rollout: Rollout, state: State, lane: int) -> Doubles:
 def turned_in(rollout: Rollout, state: State, lane: int) -> Doubles:
     """The angle by which each thing in a lane's world has turned [things]."""
     here, world = slice(lane, lane + 1), state.world
-    robots = int(rollout.tables.world[0]["robots"])
-    home, own = lane - lane % robots, lane % robots
-    others = [home + (number if number != own else 0) for number in range(1, robots)]
-    angles = world.body[ANGLE, others][None]
+    home = lane - lane % len(rollout.tables.robots)
+    angles = world.body[ANGLE, home : home + len(rollout.tables.robots)][None]
     found: Doubles = _turned(rollout, world.loose[:, here].T, world.direction[:, here].T, angles)[0]
     return found
 
@@ -191,7 +187,7 @@ def last_touch(rollout: Rollout, state: State, robot: int = 0) -> Touch | None:
     points = pair["contacts"][: pair["count"]]
     x, y = (points[name].mean() for name in (("x", "y") if pair["own"] == solid else ("its_x", "its_y")))
     ahead, aside = heading[COSINE] * x + heading[SINE] * y, heading[COSINE] * y - heading[SINE] * x
-    box = pair["found"] - ROBOT - ROBOT_SOLIDS * int(rollout.tables.world[0]["robots"]) - len(rollout.tables.loose)
+    box = pair["found"] - ROBOT - ROBOT_SOLIDS * len(rollout.tables.robots) - len(rollout.tables.loose)
     return Touch(float(ahead), float(aside), int(box), int(pair["thing"]))
 
 
@@ -207,7 +203,7 @@ def _traced(rollout: Rollout, tile: Tile, jobs: Jobs, changes: Sequence[Change])
     """The run of a tile of one world from where it is, written down from now on."""
     world, task, lane = tile.state.world, rollout.task, int(jobs.watched[0])
     wide, narrow = (sum(map(len, arrays)) for arrays in recorded(tile.state))
-    wide += SCALAR_COLUMNS + len(rollout.tables.mates)
+    wide += SCALAR_COLUMNS + len(rollout.tables.robots)
     ticks = max(1, min(CHUNK_TICKS, CHUNK_BYTES // (8 * wide + 4 * narrow)))
     jobs = replace(jobs, doubles=np.zeros((ticks, wide)), singles=np.zeros((ticks, narrow), np.float32))
     chunks = _chunks(rollout, changed(rollout, changes) if changes else rollout.advance, tile, jobs)
@@ -253,13 +249,16 @@ def _written(rollout: Rollout, state: State, jobs: Jobs) -> Ticks:
     readings, influence, commands, acting, _ = _split(jobs.singles[:count], narrow)
     held, battery, touching, *angles = scalars.T.copy()
     actuators = len(tables.actuators)
-    reached = np.isin(np.arange(influence.shape[1]), tables.skills["index"])
+    master = int(tables.robots[jobs.watched[0]]["master"])
+    reached = np.isin(
+        [skill.name for skill in rollout.graph.skills], [skill.name for skill in below(rollout.graph, master)]
+    )
     slipping = (tables.actuators["is_slipping"] | tables.actuators["is_sticky"]).astype(bool)
     each_thing = things[:, : THING_ROWS * len(tables.things)].reshape(count, len(tables.things), THING_ROWS)
     return Ticks(
         body=body,
         things=each_thing[:, :, : SIZE + 1],
-        turned=_turned(rollout, loose, direction, np.array(angles).reshape(-1, count).T),
+        turned=_turned(rollout, loose, direction, np.column_stack(angles)),
         held=held.astype(np.int64),
         battery=battery,
         touching=touching.astype(bool),
@@ -283,7 +282,8 @@ def _turned(rollout: Rollout, loose: Array, direction: Array, angles: Array) -> 
     found = np.zeros((len(loose), len(rollout.tables.things)))
     found[:, rollout.tables.loose["thing"]] = loose[:, TURN::LOOSE_ROWS][:, : len(rollout.tables.loose)]
     found[:, rollout.tables.walkers["thing"]] = direction[:, : len(rollout.tables.walkers)]
-    found[:, rollout.tables.mates["thing"]] = angles
+    rows = rollout.tables.robots["thing"]
+    found[:, rows[rows >= 0]] = angles[:, rows >= 0]
     return found
 
 

@@ -121,6 +121,7 @@ class ThingKind:
     is_solid = False  # whether it stands in the way, although nobody holds it
     is_loose = False  # whether it gives way when it is pushed
     is_robot = False  # whether it is another robot in the same world, with a mind
+    paid = 1  # 0 where it is a robot to which nothing happens that counts
     walks = False  # whether it moves by itself
     wanders = False  # whether it goes another way in each run
     ways: Alternatives = ()  # of which one is drawn for each of it

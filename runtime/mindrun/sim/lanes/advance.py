@@ -59,7 +59,7 @@ def conclude(tables: Tables, state: State, jobs: Jobs, interrupt: int) -> None:
     over, ticks, ended = 0, jobs.most[0], state.run.ended
     for lane in range(lanes):
         over += is_lost(world.body, lane) | (ended[lane] != GOING_ON) | (world.tick[lane] >= ticks)
-    robots = tables.world[0].robots
+    robots = len(tables.robots)
     for k in range(lanes // robots if over > 0 else 0):
         end(tables, state, jobs, lanes - robots * (k + 1))
 
@@ -82,7 +82,7 @@ def record(tables: Tables, state: State, jobs: Jobs) -> None:
         state.world.battery[lane],
         state.contact.touching[lane] & 1,
     )
-    add_mates(tables, state.world, row, at + 3, lane)
+    add_robots(tables, state.world, row, at + 3, lane)
     at = 0
     for rows in narrow:
         at = copy(rows, jobs.singles[jobs.recorded[0]], at, lane)
@@ -96,11 +96,10 @@ def copy(rows, target, at, lane):
     return at + len(rows)
 
 
-def add_mates(tables, world, row, at, lane):
-    """Write the angle of each other robot, and where what it holds is, which is nowhere in the world of this one."""
-    for number in range(len(tables.mates)):
-        other = number + 1 if number + 1 != lane else 0
-        row[at + number] = world.body[ANGLE, other]
-        if world.held[other] >= 0:
+def add_robots(tables, world, row, at, lane):
+    """Write the angle of each robot, and where what another one holds is, which is nowhere in the lane's own world."""
+    for other in range(len(tables.robots)):
+        row[at + other] = world.body[ANGLE, other]
+        if other != lane and world.held[other] >= 0:
             place = len(world.body) + THING_ROWS * world.held[other]
             row[place + X], row[place + Y] = place_of(world.things, world.held[other], other)

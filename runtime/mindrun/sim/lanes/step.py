@@ -23,16 +23,16 @@ def step(tables: Tables, state: State, lanes: int) -> None:
     """Damp, push and move the robots and the loose things; then headings, held items and walkers follow."""
     world, contact, constants = state.world, state.contact, tables.world[0]
     thrust(tables, world, lanes)
-    for lane in range(0, lanes if len(tables.loose) > 0 else 0, constants.robots):
+    for lane in range(0, lanes if len(tables.loose) > 0 else 0, len(tables.robots)):
         if world.restless[lane] > 0:
             slow_down(tables, world, contact, lane)
     find_near(tables, world, state.sight, contact, lanes)
-    if len(tables.mates) > 0:
+    if len(tables.robots) > 1:
         join(tables, world, contact, lanes)
     fly(world, contact.near, constants, lanes)
     for lane in range(lanes):
         contact.touching[lane] = contact.touching[lane] << 1 & 3  # bit 0 this tick, bit 1 the tick before
-    for lane in range(0, lanes, constants.robots):
+    for lane in range(0, lanes, len(tables.robots)):
         if contact.near[lane] > 0:
             make_tick(tables, world, contact, lane)
         elif world.restless[lane] > 0:
@@ -42,7 +42,7 @@ def step(tables: Tables, state: State, lanes: int) -> None:
     carry(world, tables.things, lanes)
     if len(tables.walkers) > 0:
         walk(tables, world, lanes)
-    if len(tables.mates) > 0:
+    if len(tables.robots) > 1:
         share(tables, world, lanes)
 
 
@@ -179,7 +179,7 @@ def approach(box, body, dt, gap, lanes):
 def walk(tables: Tables, world: WorldState, lanes: int) -> None:
     """Let every walker that has not vanished take its step."""
     for i in range(len(tables.walkers)):
-        for lane in range(0, lanes, tables.world[0].robots):
+        for lane in range(0, lanes, len(tables.robots)):
             x, y = place_of(world.things, tables.walkers[i].thing, lane)
             if np.isnan(x):
                 continue
@@ -192,7 +192,7 @@ def walk(tables: Tables, world: WorldState, lanes: int) -> None:
 def chase(tables, world, i, x, y, lane):
     """Step straight towards the nearest that a walker seeks, or away from what it flees; True if it could."""
     walker = tables.walkers[i]
-    dx, dy = wanted_way(world, tables.world[0].robots, walker, x, y, lane)
+    dx, dy = wanted_way(world, len(tables.robots), walker, x, y, lane)
     if np.isnan(dx) or (dx == 0.0 and dy == 0.0):
         return not np.isnan(dx)
     step, half = world.numbers[walker.step, lane], size_of(world.things, walker.thing, lane) / 2
