@@ -12,7 +12,7 @@ from mindrun.graph.graph import Task
 from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores
 from mindrun.graph.skill_sets import genes, owners, reachable
-from mindrun.graph.tasks import is_one_world
+from mindrun.graph.tasks import is_one_world, masters_in
 from mindrun.processors import cpu_seconds
 from mindrun.terminal.command_line import command_line
 
@@ -86,10 +86,8 @@ class RunSetup:
         """The task under the master, in the simulator. Runs the text of the procedures' modules."""
         from mindrun.sim.rollouts import rollout_for
 
-        of, task = self.ready.policy, self.task.name
-        return rollout_for(
-            of, task, self.first or self.master, procedures=self.folder, interrupt=interrupt, workers=workers
-        )
+        of, task, first = self.ready.policy, self.task.name, self.first or self.master
+        return rollout_for(of, task, first, procedures=self.folder, interrupt=interrupt, workers=workers)
 
 
 def set_up(

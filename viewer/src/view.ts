@@ -106,8 +106,7 @@ export class View {
   /** Goes on with another run that differs only in what it comes to; false where it is of another shape. */
   restart(about: About): boolean {
     if (shapeOf(about) !== shapeOf(this.about)) return false;
-    const { sought } = this.playback;
-    const isOfAnother = about.seed === this.about.seed && about.robot !== this.about.robot;
+    const watched = this.watchedIn(about);
     const plays = this.playback.playing || (this.playback.over && this.playback.tick >= this.playback.known);
     const follows = about.source in LIVE && (plays || this.playback.following);
     if (about.world) Object.assign(this.about.world!, about.world);
@@ -117,10 +116,16 @@ export class View {
     this.learning?.restarted();
     showTitle(about);
     this.want(FIRST_TICKS);
-    if (isOfAnother) this.playback.resume(sought, plays);
+    if (watched) this.playback.resume(watched.tick, watched.plays);
     else if (follows) this.playback.end();
     else if (plays) this.playback.play();
     return true;
+  }
+
+  /** The tick that is shown, and whether it plays on, where this is the same run through another robot. */
+  watchedIn({ seed, robot }: About): { tick: number; plays: boolean } | undefined {
+    if (seed !== this.about.seed || robot === this.about.robot) return undefined;
+    return { tick: this.playback.sought, plays: this.playback.playing };
   }
 
   /** Asks for the run as another robot of its world has it. */
