@@ -95,7 +95,7 @@ def run_bytes(run: RecordedRun, setup: RunSetup, seed: int) -> bytes:
     large to be recorded.
     """
     graph, world = run.graph, world_of(setup, seed, run.boxes, run.body[0], run.things[0], run.turned[0])
-    about = about_of(setup, bundle_without_robot(setup.ready, setup.folder), world)
+    about = about_of(setup, bundle_without_robot(setup.mind, setup.folder), world)
     rows = recorded_rows(about, 1, run, run.events)
     varies = any((each.noun, each.argument) == ("actuator", "delay") for each in setup.task.varies)
     if varies or any(each.kind.delay for each in graph.actuators):  # what reaches one was sent some ticks ago

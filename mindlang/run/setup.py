@@ -11,7 +11,7 @@ from mindrun.engine.engine import procedure_sources
 from mindrun.graph.graph import Task
 from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores
-from mindrun.graph.skill_sets import genes, owners, reachable
+from mindrun.graph.skill_sets import genes, masters_of, owners, reachable
 from mindrun.graph.tasks import is_one_world, masters_in
 from mindrun.processors import cpu_seconds
 from mindrun.terminal.command_line import command_line
@@ -52,6 +52,15 @@ class RunSetup:
         first = self.first or self.master
         master = masters_in(self.task, first)[robot_of(self.task, robot)]
         return replace(self, robot=robot, master=master, first=first)
+
+    @property
+    def mind(self) -> ReadyMind:
+        """The mind of the robot that is watched: its master, and the weights of all below; none of other robots'."""
+        policy = self.ready.policy
+        if len(masters_of(self.task, self.first or self.master)) == 1:
+            return self.ready
+        weights = {name: policy.weights[name] for name in owners(reachable(policy.graph, self.master))}
+        return replace(self.ready, policy=Policy(replace(policy.graph, master=self.master), weights))
 
     @property
     def is_one_world(self) -> bool:

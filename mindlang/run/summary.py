@@ -29,7 +29,7 @@ def run_summary(found: dict[str, Any]) -> RenderableType:
     """One run: how it ended, what it counted, and what each reward line paid."""
     ended = f"ended by {found['ended_by']}" if found["ended_by"] else "lasted its time"
     ended += ", a success" * found.get("succeeded", False)
-    whose = robot_words(found) if found.get("stopped") else ""  # until then it is one robot's, else that of all
+    whose = robot_words(found) if found.get("robot") or found.get("stopped") else ""
     facts = _facts(
         ("seed", f"{found['seed']}{whose}{drawn_in_words(found.get('drawn', {}))}"),
         *_counted({event: f"{times} × " for event, times in found["by_event"].items()}),

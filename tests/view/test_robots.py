@@ -9,9 +9,15 @@ from tests.sim.minds import DRIFTER
 from tests.view.browser import Opened, chromium
 from tests.view.serving import ViewingClient, prepared, served, simulated, unpacked
 
+MASTERS = "Drift", "Drift", "Sway"  # of the robots
 TASK = """
+skill Sway is rule
+  reads quick
+  drives left_wheel at quick
+  drives right_wheel at 0.6
 task Drift in arena size 40
-  contains mate is robot count 2
+  contains mate is robot count 1
+  contains stray is robot count 1 under Sway
   contains object is item size 1
   lasts 600 ticks
   rewards 1 on collision with mate
@@ -30,8 +36,9 @@ def team(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def commands(viewer: ViewingClient, robot: int) -> bytes:
     """The bits of the commands of a robot up to the tick, as the server has them."""
     about = viewer.hear("about")
-    assert (about["robot"], about["title"]) == (robot, f"Drift with Drift in charge, seed {SEED}, robot {robot}")
-    assert [thing["robot"] for thing in about["world"]["things"]] == [0 if n == robot else n for n in (1, 2)] + [None]
+    title = f"Drift with {MASTERS[robot]} in charge, seed {SEED}, robot {robot}"
+    assert (about["robot"], about["robots"], about["title"]) == (robot, len(MASTERS), title)
+    assert [thing["robot"] for thing in about["world"]["things"]] == [*range(len(MASTERS)), None]
     viewer.run(TICK)
     data = viewer.frame(say="rows", **{"from": 1, "to": TICK + 1})
     singles = unpacked(data, about["doubles"], about["singles"])[4]
@@ -42,6 +49,7 @@ def commands(viewer: ViewingClient, robot: int) -> bytes:
 def test_the_server_shows_a_run_through_another_robot_when_asked(team: Path) -> None:
     rollout = prepared(team, "Drift").rollout()
     expected = [joined(trace(rollout, SEED, robot=robot).chunks).commands[:TICK].tobytes() for robot in range(3)]
+    assert len({*expected}) == len(MASTERS)
     with served(simulated(team, "Drift", SEED)) as view, view.viewer() as first, view.viewer() as second:
         assert commands(first, 0) == commands(second, 0) == expected[0]
         first.say(say="watch", robot=ROBOT)

@@ -249,8 +249,8 @@ def _written(rollout: Rollout, state: State, jobs: Jobs) -> Ticks:
     readings, influence, commands, acting, _ = _split(jobs.singles[:count], narrow)
     held, battery, touching, *angles = scalars.T.copy()
     actuators = len(tables.actuators)
-    acting = below(rollout.graph, int(tables.robots[jobs.watched[0]]["master"]))
-    reached = np.isin(np.arange(influence.shape[1]), [rollout.graph.skill_numbers[skill.name] for skill in acting])
+    its = below(rollout.graph, int(tables.robots[jobs.watched[0]]["master"]))
+    reached = np.isin(np.arange(influence.shape[1]), [rollout.graph.skill_numbers[skill.name] for skill in its])
     slipping = (tables.actuators["is_slipping"] | tables.actuators["is_sticky"]).astype(bool)
     each_thing = things[:, : THING_ROWS * len(tables.things)].reshape(count, len(tables.things), THING_ROWS)
     return Ticks(
