@@ -13,6 +13,7 @@ from mindrun.graph.measured import measured_in_world, measured_on_robot, rows_of
 from mindrun.graph.named_readings import physical
 from mindrun.graph.recording_header import GOES_ON, POSE_COLUMNS, THING_COLUMNS, About, RecordedWorld, RecordingError
 from mindrun.graph.skill_sets import reachable
+from mindrun.graph.tasks import robots_in
 from mindrun.graph.wiring import read_by
 from mindrun.robot.recording import recording_bytes
 from mindrun.sim.codes import AWAY
@@ -49,8 +50,13 @@ def recorded_task(of: About, mind: Bundle) -> Task | None:
 
 
 def measured_in(of: About, mind: Bundle) -> NDArray[np.bool_]:
-    """The readings [graph.width] that a recording made with this bundle has measured: 0.1.0 wrote 0 for all others."""
+    """The readings [graph.width] that a recording made with this bundle has measured: 0.1.0 wrote 0 for all others.
+
+    It knew no world with several robots, in which any may be measured for another one's skills.
+    """
     task = recorded_task(of, mind)
+    if task and robots_in(task) > 1:
+        return np.ones(mind.graph.width, np.bool_)
     simulated = measured_in_world(mind.graph, of.master, task) if task else []
     return rows_of(mind.graph, [*measured_on_robot(mind.graph, of.sensors), *simulated])
 
