@@ -41,23 +41,24 @@ def team(tmp_path: Path) -> Path:
     return path
 
 
-def watching(team: Path, robot: int) -> RunSetup:
-    return set_up(str(team), load(team), "Meet", None, robot=robot)
+def watching(team: Path, robot: int, master: str = "Roam") -> RunSetup:
+    return set_up(str(team), load(team), "Meet", master, robot=robot)
 
 
-def run_through(team: Path, robot: int) -> RecordedRun:
-    setup = watching(team, robot)
+def run_through(team: Path, robot: int, master: str = "Roam") -> RecordedRun:
+    setup = watching(team, robot, master)
     return record_run(setup, setup.rollout(), SEED)
 
 
+@pytest.mark.parametrize("master", ["Roam", "Chase"])
 @pytest.mark.parametrize("robot", range(ROBOTS))
-def test_a_recording_says_of_which_robot_it_is_and_is_computed_again(team: Path, robot: int) -> None:
-    setup, path = watching(team, robot), team.with_name("run.rec")
-    run = run_through(team, robot)
+def test_a_recording_says_of_which_robot_it_is_and_is_computed_again(team: Path, robot: int, master: str) -> None:
+    setup, path = watching(team, robot, master), team.with_name("run.rec")
+    run = run_through(team, robot, master)
     path.write_bytes(run_bytes(run, setup, SEED))
     about, parts = read(path)
     assert about.world
-    assert (about.world.robot, about.master) == (robot, ("Roam", "Roam", "Turn")[robot])
+    assert (about.world.robot, about.master) == (robot, (master, master, "Turn")[robot])
     mind = bundle_without_robot(setup.mind, team.parent)
     assert replay(path, about.bundle, ChangedEngine(mind.policy, team.parent, about.master)).differs is None
     again = run_of(about, np.concatenate([*parts]), running_bundle(team, about), team.parent)
