@@ -13,7 +13,7 @@ from mindrun.numbers.arrays import Array
 from mindrun.sim.arrays import Block, table
 
 PUSH, STEERING, GRIPPER, IDLE, SERVO, SIGNAL = range(6)
-ITEM, ZONE, POWER, BOX, BALL, WALKER, OTHER_ROBOT = range(7)
+ITEM, ZONE, POWER, BOX, BALL, WALKER, OTHER_ROBOT, SLOPE = range(8)
 STAYS, MOVES, VANISHES = range(3)
 PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE, ITS_REWARD, APART, DRAWN_NUMBER, TALLIED, TIME = range(10)
 REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION, SUCCESS, ITS_END, LEAVE = range(8)
@@ -35,6 +35,7 @@ ACTUATOR_CODES = {
 }  # fmt: skip
 THING_CODES = {
     "item": ITEM, "zone": ZONE, "power": POWER, "box": BOX, "ball": BALL, "walker": WALKER, "robot": OTHER_ROBOT,
+    "slope": SLOPE,
 }  # fmt: skip
 MEASURE_CODES = {
     "progress": PROGRESS, "advance": ADVANCE, "retreat": RETREAT, "forward": FORWARD, "change": CHANGE,
@@ -96,7 +97,7 @@ MEMORY = _columns(i8="row kept left right compass", u8="lane", f8="left_way righ
 THING = _columns(
     i8="kind drawn is_round is_fixed reached delivered is_reached is_delivered is_area loose settles walker is_goal "
     "number copy copies option options is_within inside insides x_row y_row",
-    f8="first last by low high hold x y left right below above",
+    f8="first last by low high hold x y left right below above slide_x slide_y pull_x pull_y",
 )
 LOOSE = _columns(i8="thing is_round density friction slower number step thrust after afters aim", f8="range")
 TEAM = _columns(i8="thing master paid")
@@ -113,7 +114,7 @@ TALLY = _columns(i8="event when whens code length longest row")
 REWARD = _columns(i8="code length on each eachs when whens last")
 WORLD = _columns(
     i8="linear angular friction mass moment mass_inv moment_inv is_round is_placed is_faced ticks rays battery "
-    "number paid items hash_size",
+    "number paid items hash_size slopes",
     f8="dt radius front side arm least slop cell axles half_x half_y start_x start_y facing start drain charge near "
     "claw",
 )

@@ -120,7 +120,7 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
     options = 0
     loose, walkers, zones = count(), count(), [thing.kind for thing in task.things if thing.kind.takes_items]
     zones_stay = all(outcome == STAYS for zone in zones for outcome in zone.outcomes.values())
-    first, own = {name: found.start for name, found in rows_by_name(task).items()}, robot_rows(task)[0]
+    first, first_robot = {name: found.start for name, found in rows_by_name(task).items()}, robot_rows(task)[0]
     numbers = hash_numbers(task).things
     for number, thing in enumerate(things_of(task)):
         kind, size, copy = thing.kind, thing.kind.size, number - first[thing.name]
@@ -135,13 +135,14 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
         row: dict[str, float] = {
             "kind": codes.THING_CODES[names()[type(kind)]], "first": size.first, "last": size.last,
             "by": size.by or 0.0, "drawn": size.by is None and size.first != size.last, "low": low, "high": high,
-            "hold": graph.body.front + kind.largest / 2, "is_fixed": (bool(kind.places) or is_drawn) and number != own,
+            "hold": graph.body.front + kind.largest / 2, "is_fixed": (bool(kind.places) or is_drawn) and number != first_robot,
             "x": x, "y": y,
             "is_round": kind.is_round and not (kind.is_robot and graph.body.outline),
             "is_area": kind.is_area, "is_goal": thing.name in never,
             "loose": next(loose) if kind.is_loose else -1, "settles": kind.is_loose and zones_stay,
             "walker": next(walkers) if kind.walks else -1, "number": numbers[number],
             "copy": copy, "copies": kind.copies, "option": options, "options": 0 if own else len(kind.options),
+            **(_steepness(kind, graph.tick) if kind.is_steep else {}),
             **_region(kind, rows_by_name(task)), **(own[0] if own else EVERY_RUN),
         }  # fmt: skip
         options += len(kind.options) if copy + 1 == kind.copies else 0
@@ -152,6 +153,12 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
         row["is_delivered"] = row["is_delivered"] and bool(zones)  # elsewhere nobody looks for zones
         rows.append(row)
     return records(rows, codes.THING)
+
+
+def _steepness(kind: Any, dt: float) -> Row:
+    """The columns of a slope: how far an item slides down in a tick, and the force that draws a robot down."""
+    (x, y), far = kind.down, kind.slides * dt
+    return {"slide_x": x * far, "slide_y": y * far, "pull_x": x * kind.pull, "pull_y": y * kind.pull}
 
 
 def _region(kind: ThingKind, places: Mapping[str, range]) -> Row:
@@ -367,6 +374,7 @@ def world_row(graph: Graph, task: Task, parameters: Parameters, rays: int, used:
         "half_x": half_x, "half_y": half_y, "is_placed": begin.at is not None, "start_x": start_x, "start_y": start_y,
         "is_faced": begin.facing is not None, "facing": begin.facing or 0.0, "ticks": task.ticks,
         "start": battery.start if powered else np.nan, "drain": battery.drain, "charge": battery.charge, "rays": rays,
+        "slopes": sum(thing.kind.is_steep for thing in task.things),
         "near": near, "claw": graph.claw_reach, "battery": powered,
         "number": numbers.robot, "items": numbers.items, "hash_size": numbers.size,
         "paid": paid_robots(task),

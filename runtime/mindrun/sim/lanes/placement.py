@@ -185,7 +185,14 @@ def start(tables, world, lane):
         body[X, lane], body[Y, lane] = constants.start_x, constants.start_y
     elif constants.half_x < ENDLESS_UNITS:
         start_anywhere(tables, world, lane)
-    body[ANGLE, lane] = constants.facing if constants.is_faced else uniform(world.random, lane, 0.0, 2 * np.pi)
+    face(tables, world, lane)
+
+
+def face(tables, world, lane):
+    """Let the robot of a lane face where its task says, or anywhere."""
+    constants = tables.world[0]
+    angle = constants.facing if constants.is_faced else uniform(world.random, lane, 0.0, 2 * np.pi)
+    world.body[ANGLE, lane] = angle
 
 
 def start_anywhere(tables, world, lane):
@@ -240,7 +247,7 @@ def start_mate(tables, world, mate, home, lane):
         low = max(thing.low, 4 * constants.radius)
         x, y = find(tables, world, low, max(thing.high, low), 0.0, constants.radius, mate, lane)
         body[X, lane], body[Y, lane] = x, y
-    body[ANGLE, lane] = uniform(world.random, lane, 0.0, 2 * np.pi)
+    face(tables, world, lane)
 
 
 def anywhere(random, left, right, below, above, lane):
@@ -376,11 +383,21 @@ def clear_of_all(tables, world, x, y, margin, lane):
         its_x, its_y = place_of(world.things, tables.loose[i].thing, lane)
         if thing.is_fixed and abs(its_x - x) < gap and abs(its_y - y) < gap:
             return False
-    for i in range(len(tables.robots) if len(tables.robots) > 1 else 0):
-        if tables.robots[i].thing < 0:
+    return len(tables.robots) == 1 or clear_of_robots(tables, world, x, y, tables.world[0].radius + margin, lane)
+
+
+@OF_SEVERAL
+def clear_of_robots(tables: Tables, world: WorldState, x: float, y: float, gap: float, lane: int) -> int:
+    """True if no robot that has begun, or has a place, is nearer than `gap` to a point along both axes."""
+    number = lane % len(tables.robots)
+    for other in range(len(tables.robots)):
+        thing = tables.robots[other].thing
+        if other < number:
+            its_x, its_y = middle_of(world.body, lane - number + other)
+        elif other > number and tables.things[thing].is_fixed:
+            its_x, its_y = place_of(world.things, thing, lane)
+        else:
             continue
-        its_x, its_y = place_of(world.things, tables.robots[i].thing, lane)
-        gap = tables.world[0].radius + margin
         if abs(its_x - x) < gap and abs(its_y - y) < gap:
             return False
     return True

@@ -198,20 +198,34 @@ def look_at_loose(tables: Tables, world: WorldState, sight: SightState, first: i
 
 @unit_where(lambda tables: len(tables.robots) > 1 and tables.world[0]["rays"] > 0)
 def look_at_robots(tables: Tables, world: WorldState, sight: SightState, first: int, last: int, lanes: int) -> None:
-    """Shorten each of some rays that meets another robot, but for one of those that its own sensor looks for."""
-    rows, frame, body = sight.sight, sight.frame, world.body
-    for i in range(len(tables.robots)):
-        thing = tables.robots[i].thing
-        if thing < 0:
-            continue
-        for lane in range(lanes):
-            x, y = place_of(world.things, thing, lane)
-            frame[LOOSE_COSINE, lane], frame[LOOSE_SINE, lane] = ONE, ZERO
-            frame[LOOSE_X, lane], frame[LOOSE_Y, lane] = F(x - body[X, lane]), F(y - body[Y, lane])
-            frame[LOOSE_HALF, lane] = F(tables.world[0].radius)
-        for ray in range(first, last):
-            if not (tables.passes[0, ray] <= thing) & (thing < tables.passes[1, ray]):
-                meet_ball(rows, frame, tables.rays[COSINE, ray], tables.rays[SINE, ray], rows[FIRST_RAY + ray], lanes)
+    """Shorten each of some rays that meets another robot, but for one of those that its own sensor looks for.
+
+    One that is farther away than any ray reaches is not looked at.
+    """
+    rows, body, robots, radius = sight.sight, world.body, len(tables.robots), F(tables.world[0].radius)
+    most = tables.world[0].near + tables.world[0].radius
+    for lane in range(lanes):
+        home = lane - lane % robots
+        for other in range(home, home + robots):
+            dx, dy = body[X, other] - body[X, lane], body[Y, other] - body[Y, lane]
+            if other == lane or not dx * dx + dy * dy < most * most:
+                continue
+            thing = tables.robots[other - home].thing
+            for ray in range(first, last):
+                if not (tables.passes[0, ray] <= thing) & (thing < tables.passes[1, ray]):
+                    far = rows[FIRST_RAY + ray, lane]
+                    rows[FIRST_RAY + ray, lane] = to_disc(tables, rows, ray, F(dx), F(dy), radius, far, lane)
+
+
+def to_disc(tables, rows, ray, x, y, radius, far, lane):
+    """How far a ray goes that would go so far, where a disc of a radius stands (x, y) from the robot's middle."""
+    ahead, aside = rows[SIGHT_COSINE, lane], rows[SIGHT_SINE, lane]
+    cosine, sine = tables.rays[COSINE, ray], tables.rays[SINE, ray]
+    c, s = ahead * cosine - aside * sine, aside * cosine + ahead * sine
+    across = x * s - y * c
+    room = radius * radius - across * across
+    enter = x * c + y * s - np.sqrt(room if room > ZERO else ZERO)
+    return enter if (room >= ZERO) & (enter >= ZERO) & (enter < far) else far
 
 
 def enter_frame(tables, world, frame, i, lanes):
