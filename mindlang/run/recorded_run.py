@@ -12,8 +12,9 @@ from mindrun.graph.recording_header import GOES_ON
 from mindrun.graph.skill_sets import movers
 from mindrun.graph.tasks import things_of
 from mindrun.sim.codes import AWAY
+from mindrun.sim.numbering import robot_numbers
 from mindrun.sim.rollout import Rollout, scores_of
-from mindrun.sim.trace import Trace, joined, robot_numbers, trace
+from mindrun.sim.trace import Trace, joined, trace
 from numpy.typing import NDArray
 
 from mindlang.run.outcome import run_data, run_names

@@ -11,8 +11,7 @@ from mindrun.graph.recording_header import About
 from mindrun.graph.tasks import robots_in, things_of
 from mindrun.kinds.registry import names
 from mindrun.robot.hand import hand_on
-from mindrun.sim.task_rows import opened_boxes
-from mindrun.sim.trace import robot_numbers
+from mindrun.sim.numbering import opened_boxes, robot_numbers
 
 from mindlang.pictures.scene import half_sides, thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, code

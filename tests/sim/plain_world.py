@@ -18,7 +18,8 @@ from mindrun.kinds.sensors.nearest import Bearing
 from mindrun.kinds.sensors.rays import RangeFinder
 from mindrun.kinds.things.loose import Ball, LooseBox
 from mindrun.kinds.things.obstacle import Obstacle
-from mindrun.kinds.things.thing import Item, Power, Slope, Zone
+from mindrun.kinds.things.slope import Slope
+from mindrun.kinds.things.thing import Item, Power, Zone
 from mindrun.numbers.trigonometry import cosine, sine
 
 from mindlang.physics_check import ROBOT_FRICTION

@@ -7,8 +7,8 @@ import pymunk
 import pytest
 from mindrun.graph.policy import Policy
 from mindrun.numbers.trigonometry import cosine, sine
+from mindrun.sim.numbering import rows_by_name
 from mindrun.sim.rollout import Rollout, Tile
-from mindrun.sim.task_rows import rows_by_name
 
 from mindlang.physics_check import ROBOT_FRICTION, add, arena, disc, drive
 from tests.draws import first

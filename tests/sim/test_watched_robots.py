@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from mindrun.engine.changes import Change, What
 from mindrun.numbers.arithmetic import ANGLE, Y, place_of
-from mindrun.sim.trace import Ticks, joined, robot_numbers, trace
+from mindrun.sim.numbering import robot_numbers
+from mindrun.sim.trace import Ticks, joined, trace
 
 from tests.sim.test_teams import ROCKS, drifters, ticks
 

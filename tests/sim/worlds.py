@@ -32,7 +32,8 @@ from mindrun.kinds.scenes.scene import Arena, Plain, SceneKind
 from mindrun.kinds.things.loose import Ball, LooseBox
 from mindrun.kinds.things.map import Map
 from mindrun.kinds.things.obstacle import Obstacle
-from mindrun.kinds.things.thing import Item, Power, Slope, Zone
+from mindrun.kinds.things.slope import Slope
+from mindrun.kinds.things.thing import Item, Power, Zone
 from mindrun.kinds.things.walker import Begin, Walker
 from mindrun.kinds.things.wall import Wall
 from mindrun.numbers.quantity import FARTHEST_UNITS, UNSAID, Span

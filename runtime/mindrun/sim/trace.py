@@ -13,7 +13,6 @@ import numpy as np
 
 from mindrun.engine.changes import Change, Changed, ChangeError, calm_ticks, in_tick
 from mindrun.engine.think import in_scopes
-from mindrun.graph.graph import Task
 from mindrun.graph.skill_sets import below
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, COSINE, LOOSE_ROWS, SINE, SIZE, THING_ROWS, TURN
 from mindrun.numbers.arrays import Array, Bools, Doubles, Integers, Singles
@@ -23,7 +22,6 @@ from mindrun.sim.lanes.advance import before
 from mindrun.sim.procedures import Memories
 from mindrun.sim.rollout import Rollout, Tile
 from mindrun.sim.state import FIXED, ROBOT, ROBOT_SOLIDS, Jobs, State, recorded
-from mindrun.sim.task_rows import robot_rows
 
 Advance = Callable[[Tile, Jobs, int], int]
 CHUNK_TICKS, CHUNK_BYTES = 256, 1 << 22  # of a run at once, or fewer where a tick is large
@@ -153,11 +151,6 @@ def joined(chunks: Iterable[Ticks]) -> Ticks:
     each = list(chunks)
     columns = {name: [getattr(ticks, name) for ticks in each] for name in Ticks.__slots__}
     return Ticks(**{name: np.concatenate(parts) for name, parts in columns.items()})
-
-
-def robot_numbers(task: Task) -> dict[int, int]:
-    """The number of the robot that each row of things is which is one; in its own world it is nowhere."""
-    return {row: number for number, row in enumerate(robot_rows(task)) if row >= 0}
 
 
 def things_in(rollout: Rollout, state: State, lane: int) -> Doubles:
