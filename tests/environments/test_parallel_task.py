@@ -119,6 +119,17 @@ def test_who_cannot_act_is_told(team: Path) -> None:
         env.step({agent: np.full(2, 0.5, np.float32) for agent in AGENTS})
 
 
+def test_an_image_has_all_robots(team: Path) -> None:
+    env = ParallelTask(team, "Team", render_mode="rgb_array")
+    env.reset(seed=1)
+    before = env.render()
+    rests, drives = np.array([0.5, 0.5, 0.0], np.float32), np.array([0.9, 0.9, 0.0], np.float32)
+    for _ in range(20):
+        env.step(dict.fromkeys(AGENTS, rests) | {"robot_2": drives})
+    assert before.shape == (480, 480, 3)
+    assert (before != env.render()).any()
+
+
 def test_layouts_are_drawn_from_the_seed(team: Path) -> None:
     def drawn(env: ParallelTask) -> list[object]:
         return [env.reset(seed=4)[1], env.reset()[1], env.reset()[1]]
