@@ -29,8 +29,8 @@ class ParallelTask(ParallelEnv[str, Floats, Floats], EzPickle):
 
     `reset(seed=3)` begins the layout of `mindc run --seed 3`; without a seed, layouts are drawn. The reward of an agent
     is what the reward lines pay its robot in the tick, and 0 for a robot with `paid 0`; the mean over all others,
-    summed over an episode, is the score of the run. The task's ends terminate an episode for all agents in the same step, its time truncates it for
-    all. Pickled by its arguments: a copy begins anew.
+    summed over an episode, is the score of the run. The task's ends terminate an episode for all agents in the same
+    step, its time truncates it for all. Pickled by its arguments: a copy begins anew.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"]}  # noqa: RUF012  # as pettingzoo has it
