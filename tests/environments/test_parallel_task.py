@@ -4,6 +4,7 @@ import pickle
 import warnings
 from functools import partial
 from pathlib import Path
+from shutil import copytree
 
 import numpy as np
 import pytest
@@ -42,6 +43,7 @@ ALONE = """task Alone in arena size 16
   lasts 9 ticks
   rewards 1 on collision
 """
+COLLECT = Path(__file__).parents[2] / "examples" / "collect"
 AGENTS = ["robot_0", "robot_1", "robot_2", "robot_3"]
 
 
@@ -77,14 +79,15 @@ def test_under_the_commands_of_their_minds_it_is_the_run_of_its_layout(
     teammates = [agent for agent, master in zip(AGENTS, masters, strict=True) if master == "Drift"]
     rows, ended, paid_apart = env._episodes.readings, set(), 0
     for seed in range(8):
-        scores, first = rollout.score(np.zeros((1, 0), np.float32), [seed]), list(mind.trace("Team", seed).moments)
+        scores = rollout.score(np.zeros((1, 0), np.float32), [seed])
+        runs = {agent: [*mind.trace("Team", seed, robot=robot).moments] for robot, agent in enumerate(AGENTS)}
         seen, told = env.reset(seed=seed)
         assert told == {agent: {"layout": seed} for agent in AGENTS}
         total, own, ticks = 0.0, dict.fromkeys(AGENTS, 0.0), 0
         for engine in minds.values():
             engine.reset()
         while env.agents:
-            assert np.array_equal(seen["robot_0"], first[ticks].readings[rows])
+            assert all(np.array_equal(seen[agent], runs[agent][ticks].readings[rows]) for agent in AGENTS)
             assert np.array_equal(env.state(), np.concatenate([*seen.values()]))
             readings = {agent: np.zeros(mind.graph.width, np.float32) for agent in AGENTS}
             for agent in AGENTS:
@@ -93,7 +96,7 @@ def test_under_the_commands_of_their_minds_it_is_the_run_of_its_layout(
             assert [*map(set, (seen, paid, *over, told))] == [set(AGENTS)] * 5
             total, ticks = total + sum(paid[agent] for agent in teammates) / len(teammates), ticks + 1
             own = {agent: own[agent] + paid[agent] for agent in AGENTS}
-            assert own["robot_0"] == first[ticks - 1].lines.sum()
+            assert [own[agent] for agent in teammates] == [runs[agent][ticks - 1].lines.sum() for agent in teammates]
         assert ticks == scores.ticks[0, 0]
         assert total == scores.total[0, 0]  # whole numbers, and a half or a quarter of their sum
         paid_apart += len({own[agent] for agent in teammates}) > 1
@@ -105,6 +108,26 @@ def test_under_the_commands_of_their_minds_it_is_the_run_of_its_layout(
         ended.add(told["robot_0"]["ended_by"])
     assert ended == {end}
     assert paid_apart
+
+
+def test_a_skill_that_all_play_as_it_was_taught_makes_the_same_run(tmp_path: Path) -> None:
+    text = TEAM.replace("in arena size 16", "in Rocks").replace(
+        "size 1 count 2", "size 1 count 2\n  contains drop_zone is zone"
+    )
+    (path := copytree(COLLECT, tmp_path / "collect") / "team.mind").write_text(
+        f'mind 1\nuse "collect.mind"\nmaster Collect\n{text}', "utf-8"
+    )
+    mind, env = mindlang.load(path), ParallelTask(path, "Team", skill="Avoid", master="Collect")
+    policy = mind.policy("Collect")
+    [skill] = [each for each in policy.graph.skills if each.name == "Avoid"]
+    compute = skill.function.ready(len(skill.inputs), skill.outputs, policy.weights["Avoid"], {})
+    seen, told = env.reset(seed=5)
+    while env.agents:
+        seen, _, _, _, told = env.step({agent: compute(seen[agent]) for agent in env.agents})
+    scores = mind.rollout("Team", "Collect").score(np.zeros((1, 0), np.float32), [5])
+    assert {each["score"] for each in told.values()} == {scores.total[0, 0]}
+    for robot, body in enumerate(env._episodes.lanes.state.world.body[:, :4].T):
+        assert np.array_equal(body, [*mind.trace("Team", 5, "Collect", robot).moments][-1].body)
 
 
 def test_who_cannot_act_is_told(team: Path) -> None:
