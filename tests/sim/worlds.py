@@ -32,6 +32,7 @@ from mindrun.kinds.scenes.scene import Arena, Plain, SceneKind
 from mindrun.kinds.things.loose import Ball, LooseBox
 from mindrun.kinds.things.map import Map
 from mindrun.kinds.things.obstacle import Obstacle
+from mindrun.kinds.things.robot import Robot
 from mindrun.kinds.things.thing import Item, Power, Zone
 from mindrun.kinds.things.walker import Begin, Walker
 from mindrun.kinds.things.wall import Wall
@@ -48,6 +49,10 @@ APART = [
 AWAY = st.sampled_from([Span(-1.0, -1.0), Span(0.0, 3.0), Span(0.0, 6.0), Span(2.0, 12.0)])
 PLACES = st.tuples(st.sampled_from([-6.0, 0.0, 4.5]), st.sampled_from([-4.0, 0.5, 3.0]))
 WAYS = [((-9.0, -5.0), (-2.0, -5.0)), ((6.0, 6.0), (6.0, -3.0), (9.5, -3.0)), ((3.0, 7.0), (-3.0, 7.0))]
+TEAMS = [(), ("mate",), ("mate", "scout")]
+ROBOTS = st.builds(Robot, count=st.sampled_from([1, 1, 3]), away=AWAY) | st.builds(
+    Robot, at=st.tuples(PLACES), or_=st.sampled_from([(), (((9.0, -6.0),),)])
+)
 PATHS = [((-5.0, 0.0), (5.0, 2.0)), ((0.0, 0.0), (3.0, 0.0), (3.0, -6.0))]
 DRAWS = st.sampled_from([
     Draw("side", (-4.0, 3.0)), Draw("side", (1.0, 5.0, -2.5)), Draw("far", (-6.0, 6.0), True), Draw("far", (2.0,)),
@@ -127,13 +132,16 @@ def _robots(draw: st.DrawFn, graph: Graph) -> Graph:
 
 
 @st.composite
-def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
-    """A hierarchy with one task, World, in which what may happen happens often: all is large, and near."""
+def random_world(draw: st.DrawFn, most: int = 40, team: bool = False) -> Graph:
+    """A hierarchy with one task, World, in which what may happen happens often: all is large, and near.
+
+    In a `team` there are other robots now and then, of which the plain reference knows nothing.
+    """
     graph = draw(random_graph())
     graph = replace(draw(_robots(graph)), tick=draw(st.sampled_from([1 / 60, 1 / 30, 0.1])))
     scene: SceneKind = draw(st.sampled_from([Plain(), Arena(20.0), Arena(33.0), Arena((26.0, 15.0))]))
     draws = tuple(draw(st.lists(DRAWS, max_size=2, unique_by=lambda drawn: drawn.name)))
-    things = draw(_things(scene, draws))
+    things = draw(_things(scene, draws, team))
     graph = draw(_about_several(graph, things))
     measures, events = draw(_measures(things)), draw(_events(scene, things))
     tallies = tuple(
@@ -246,8 +254,8 @@ def _drives(draw: st.DrawFn, names: list[str]) -> dict[str, Any]:
 
 
 @st.composite
-def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...]) -> tuple[Thing, ...]:
-    """Items, zones and powers, some of them not there; obstacles on a grid or loose."""
+def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...], team: bool) -> tuple[Thing, ...]:
+    """Items, zones and powers, some of them not there; obstacles on a grid or loose; and with `team` other robots."""
     things: list[Thing] = []
     for name, kind, size in APART:
         if draw(st.integers(0, 2)):
@@ -276,6 +284,7 @@ def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...]) -> tuple
             has_room = not made.within or made.mistake(scene) is None
             things.append(Thing(name, made if has_room else replace(made, within=""), draw(_presence(draws))))
     things += [replace(each, when=draw(_presence(draws))) for each in draw(_obstacles(scene))]
+    things += [Thing(name, draw(ROBOTS)) for name in draw(st.sampled_from(TEAMS)) if team]
     return tuple(draw(_drawn_places(draw(_counted(each, draws)), draws)) for each in draw(st.permutations(things)))
 
 
@@ -366,6 +375,8 @@ def _events(draw: st.DrawFn, scene: SceneKind, things: tuple[Thing, ...]) -> tup
             movers = [each.name for each in things if Reach.accepts("by", each.kind) and each is not thing]
             crossing += [Reach(thing.name, by) for by in movers]
             crossing += [Leave(thing.name, by) for by in ("", *movers) if thing.kind.is_area]
+        if thing.kind.is_robot:
+            events.append(Collision(thing.name))
         if isinstance(thing.kind, Item | LooseBox | Ball):
             events.append(Delivery(thing.name))
             events += [Delivery(thing.name, zone.name) for zone in things if isinstance(zone.kind, Zone)]

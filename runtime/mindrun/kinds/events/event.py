@@ -98,7 +98,7 @@ class EventKind(AboutThing):
 class Collision(EventKind):
     """The body, or the item it holds, begins to touch an obstacle or a wall; to push a box or ball is no collision.
 
-    With `with` it begins to touch a robot of that name, or what that holds, once for each.
+    With `with` it begins to touch a robot of that name, or the item that this holds: once for each of them.
     """
 
     with_: ThingName = left_out("")
@@ -115,7 +115,7 @@ class Collision(EventKind):
 
 @kind("event", "reach")
 class Reach(EventKind):
-    """An item, box, ball or walker comes into the claw's reach, or the robot's centre into a zone or power.
+    """An item, box, ball, walker or robot comes into the claw's reach, or the robot's centre into a zone or power.
 
     Once until it has left again. With `by` another thing does so in the robot's place: its middle comes into the zone
     or power, or its rim no farther from that of anything else than a claw reaches; nothing becomes of what it reaches.

@@ -3,12 +3,13 @@
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.kinds.registry import kind
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, ThingKind
+from mindrun.kinds.registry import kind, left_out
+from mindrun.kinds.scenes.scene import SceneKind
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, Alternatives, ThingKind, ThingMistake
 from mindrun.numbers.quantity import Lengths, Places, Quantity
 
 MOST_ROBOTS = 64  # in one world
-COUNT = Quantity("a whole number from 1 to 63", {"": 1.0}, low=1, high=MOST_ROBOTS - 1, whole=True)
+COUNT = Quantity("a whole number", {"": 1.0}, low=1, high=MOST_ROBOTS - 1, whole=True)
 
 
 @kind("content", "robot")
@@ -16,15 +17,19 @@ COUNT = Quantity("a whole number from 1 to 63", {"": 1.0}, low=1, high=MOST_ROBO
 class Robot(ThingKind):
     """Other robots with the body and the mind of the first, `count` of them, each with a claw and memories of its own.
 
-    They push each other as balls and boxes do. They begin where the first could: anywhere clear in an arena, or `away`
-    from it in a plain scene; or `at` places. What a robot is to the first, the first
-    is to it.
+    They push each other as balls and boxes do. They begin where the first could: anywhere clear in an arena, `away`
+    from it, or `at` places; and face anywhere. What a robot is to the first, the first is to it.
     """
 
     count: Annotated[int, COUNT] = 1
     away: Lengths = DEFAULT_DISTANCE
     at: Places = ()
+    or_: Alternatives = left_out(())
 
     is_robot = True
     is_solid = True
     is_round = True
+
+    def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
+        """Of one at a place that of any scene: only who knows its body can say whether it is inside."""
+        return ThingKind.mistake(self, None if self.spots else scene)
