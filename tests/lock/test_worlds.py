@@ -385,7 +385,7 @@ TEXTS = [
     ("ball is item size 2", "ball is item size 2 reached moves", "taught with ball reached stays, now moves"),
     ("ball is item size 2", "ball is item size 2 delivered stays", "taught with ball delivered moves, now stays"),
     ("robot count 2", "robot count 3", "taught with mate count 2, now 3"),
-    ("  contains fence", "  contains cousin is robot at 30 0\n  contains fence", "its task has changed: contains cousin"),
+    ("  contains fe", "  contains kin is robot at 30 0\n  contains fe", "its task has changed: contains kin"),
     (
         "-20 on collision with mate", "-20 on collision",
         "its task has changed: no longer rewards -20 on collision with mate; "
