@@ -276,6 +276,7 @@ def event_rows(task: Task) -> tuple[Array, int, int]:
     rows: list[Row] = []
     board = arrivals = windows = 0
     numbers = {event: number for number, event in enumerate(task.events)}
+    kinds = {thing.name: thing.kind for thing in task.things}
     for event in task.events:
         own, code = event.row(task.scene), codes.EVENT_CODES[names()[type(event)]]
         about, into = places[event.thing], places[event.other]
@@ -284,6 +285,7 @@ def event_rows(task: Task) -> tuple[Array, int, int]:
             "patch": 1.0, "board": board, **own, "arrival": arrivals, "left": windows,
             "after": numbers[event.within.of] if event.within else -1,
             "window": event.within.ticks + 1 if event.within else 0,
+            "is_common": all(each.is_common(kinds) for each in event.single),
         })  # fmt: skip
         board += int(own.get("columns", 0) * own.get("rows", 0))
         arrivals += event.remembered(len(about), len(into))

@@ -89,6 +89,10 @@ class EventKind(AboutThing):
         """How many of its things, or of the others, the lanes remember to have been where they are."""
         return 0
 
+    def is_common(self, kinds: Mapping[str, ThingKind]) -> bool:
+        """True if it happens to a world, and so to each of its robots; `kinds` are those of its things by name."""
+        return self.is_of_success
+
     def row(self, scene: SceneKind) -> Row:
         """The kind's columns of the lanes' table but for its thing: `columns` and `rows` of patches, `patch` a side."""
         return {}
@@ -124,6 +128,9 @@ class Reach(EventKind):
     of: ThingName
     by: ThingName = left_out("")
 
+    def is_common(self, kinds: Mapping[str, ThingKind]) -> bool:
+        return bool(self.by) and not (kinds[self.of].is_robot or kinds[self.by].is_robot)
+
     @property
     def outcome(self) -> str:  # type: ignore[override]
         return "" if self.by else "reached"
@@ -145,6 +152,9 @@ class Leave(EventKind):
 
     of: ThingName
     by: ThingName = ""
+
+    def is_common(self, kinds: Mapping[str, ThingKind]) -> bool:
+        return bool(self.by) and not (kinds[self.of].is_robot or kinds[self.by].is_robot)
 
     is_about = staticmethod(lambda kind: kind.is_area)  # squares on the floor
 
@@ -193,6 +203,9 @@ class Delivery(EventKind):
 
     is_about = staticmethod(lambda kind: kind.can_be_delivered)
     remembered = staticmethod(lambda things, others: things if others else 0)  # where it is about certain zones
+
+    def is_common(self, kinds: Mapping[str, ThingKind]) -> bool:
+        return kinds[self.of].is_loose
 
     @classmethod
     def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:

@@ -198,7 +198,10 @@ def reset(tables, state, lane):
 
 
 def finish(tables, state, jobs, home):
-    """Write down what came of the job of a world: the mean of what its robots are paid, the sum of what happened."""
+    """Write down what came of the job of a world: the mean of what its robots are paid, the sum of what happened.
+
+    What is common to all of them has happened once.
+    """
     judge, run, robots = state.judge, state.run, tables.world[0].robots
     job = run.job[home]
     for i in range(len(tables.rewards)):
@@ -209,7 +212,7 @@ def finish(tables, state, jobs, home):
     jobs.counts[job, : len(tables.events)], jobs.faults[job] = 0, 0
     for lane in range(home, home + robots):
         for i in range(len(tables.events)):
-            jobs.counts[job, i] += judge.counts[i, lane]
+            jobs.counts[job, i] += judge.counts[i, lane] if lane == home or not tables.events[i].is_common else 0
         jobs.faults[job] += run.faults[lane]
         run.job[lane] = -1
     jobs.ticks[job], jobs.ended[job], jobs.met[job] = state.world.tick[home], run.ended[home], run.met[home]
