@@ -102,7 +102,7 @@ def _task(task: model.Task, places: Places) -> graph.Task:
     rewards = tuple(_reward(reward, events, places) for reward in task.rewards)
     counts = tuple(dict.fromkeys(_event(event, events) for event in task.counts))
     whens = ((each, program_of(each.when, places) if each.when else ()) for each in task.things)
-    things = tuple(graph.Thing(each.name, each.kind, when, each.by, each.many) for each, when in whens)
+    things = tuple(graph.Thing(each.name, each.kind, when, each.by, each.many, each.master) for each, when in whens)
     return graph.Task(
         task.name, task.scene, things, task.ticks, tuple(places.measures), tuple(events), ends, rewards, counts
     , task.start, task.varies, task.fails, task.draws, tuple(places.tallies))  # fmt: skip

@@ -47,12 +47,14 @@ class Part(Struct, Generic[K], frozen=True):
 class Thing(Part[ThingKind], frozen=True):
     """A thing of a task. It is there in the runs in which the condition `when` holds, or in all.
 
-    `by` and `many` say where it is and how many there are, where that is drawn, as in `graph.Thing`.
+    `by` and `many` say where it is and how many there are, where that is drawn, and of a robot its `master`
+    which skill is in charge, as in `graph.Thing`.
     """
 
     when: syntax.When | None = None
     by: tuple[Program, ...] = ()
     many: int = 0
+    master: str = ""
 
     @property
     def is_always_there(self) -> bool:

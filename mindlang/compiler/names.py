@@ -185,7 +185,7 @@ NAMED_NOUNS: Mapping[type[Any], Mapping[str, tuple[str, ...]]] = {
     syntax.Reads: {"name": READABLE_NOUNS, "stands_for": READABLE_NOUNS},
     syntax.Drives: {"name": DRIVABLE_NOUNS, "stands_for": DRIVABLE_NOUNS},
     syntax.Influences: {"name": _SKILL, "stands_for": _SKILL, "over": DRIVABLE_NOUNS},
-    syntax.Contains: {"name": ("thing",)},
+    syntax.Contains: {"name": ("thing",), "master": _SKILL},
     syntax.Draws: {"name": ("draw",)},
     syntax.Varies: {"of": (*VARIED_NOUNS, "thing")},
     syntax.Fails: {"name": ("actuator", "sensor")},

@@ -302,12 +302,13 @@ class Achieves(Promise, frozen=True):
 
 
 class Contains(Struct, frozen=True):
-    """`contains NAME is PHRASE [when CONDITION]`"""
+    """`contains NAME is PHRASE [under SKILL] [when CONDITION]`"""
 
     name: Name
     phrase: Phrase
     when: When | None
     span: Span
+    master: Name | None = None
 
 
 class Starts(Struct, frozen=True):

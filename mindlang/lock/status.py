@@ -11,8 +11,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mindrun.graph.graph import Graph, Lesson, Skill
-from mindrun.graph.skill_sets import below, genes, learners, owner_of, owners, reachable
+from mindrun.graph.graph import Graph, Lesson, Skill, Task
+from mindrun.graph.skill_sets import acting, below, genes, learners, owner_of, owners, reachable
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.source import Source
@@ -172,8 +172,8 @@ class _Standing:
         """True if a skill acted in the lesson in which another was taught."""
         master = taught.taught.master
         if master not in self._acting:
-            acting = reachable(self.graph, master) if master in self.graph.skill_numbers else ()
-            self._acting[master] = {name for each in acting for name in (each.name, each.owner)}
+            below_it = reachable(self.graph, master) if master in self.graph.skill_numbers else ()
+            self._acting[master] = {name for each in below_it for name in (each.name, each.owner)}
         return master != taught.skill and skill in self._acting[master]
 
     @cached_property
@@ -284,7 +284,8 @@ def needed_skills(graph: Graph, lesson: Lesson) -> set[str]:
 def subskills(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
     """The skills whose weights act in a lesson and do not learn: all below its master but the learners."""
     taught = learners(graph, lesson)
-    return tuple(name for name in owners(reachable(graph, lesson.master)) if name not in taught)
+    task = next(task for task in graph.tasks if task.name == lesson.task)
+    return tuple(name for name in owners(acting(graph, task, lesson.master)) if name not in taught)
 
 
 def is_due(graph: Graph, lesson: Lesson, states: Mapping[str, Status]) -> bool:
@@ -327,14 +328,20 @@ class ReadyMind:
     notes: tuple[str, ...]
 
 
-def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = None) -> ReadyMind:
-    """The graph of these sources with the weights of their locks; LockError where a lock or weights are damaged."""
+def make_ready(
+    graph: Graph, sources: Iterable[Source], master: str | None = None, task: Task | None = None
+) -> ReadyMind:
+    """The graph of these sources with the weights of their locks; LockError where a lock or weights are damaged.
+
+    Of a task these are the weights of all who act in it.
+    """
     from mindrun.graph.policy import Policy  # which needs numpy
 
     sources = tuple(sources)
     lock = read_locks(lock_sources(sources))
     graph = replace(arrange(graph, lock), master=master or graph.master)
-    needed = [skill.name for skill in reachable(graph, graph.master)]
+    acts = acting(graph, task, graph.master) if task else reachable(graph, graph.master)
+    needed = [skill.name for skill in acts]
     weights, refusals = trained_weights(graph, lock, frozenset(needed))
     states = status(graph, lock, sources[0].folder)
     notes = elsewhere_sentences({name: states[name] for name in needed})

@@ -15,7 +15,7 @@ from typing import Any
 from mindrun.errors import ProcedureError
 from mindrun.graph.codec import encode
 from mindrun.graph.graph import Edge, Graph, HardLayouts, Lesson, Program, Reward, Skill, Start, Tally, Task
-from mindrun.graph.skill_sets import genes, reachable
+from mindrun.graph.skill_sets import acting, genes
 from mindrun.graph.tasks import physics
 from mindrun.kinds.environment import module_beside
 from mindrun.kinds.functions.procedure import module_source, used_file
@@ -75,7 +75,7 @@ class Worlds:
 
     def _facts_of_lesson(self, name: str, master: str) -> Iterator[tuple[str, Any]]:
         task = next(task for task in self.graph.tasks if task.name == name)
-        skills = reachable(self.graph, master)
+        skills = acting(self.graph, task, master)
         yield "tick", self.graph.tick
         yield "body", encode(self.graph.body)
         yield "task", {"scene": encode(task.scene), "ticks": task.ticks, **self._ends(task)}

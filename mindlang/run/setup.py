@@ -88,14 +88,15 @@ def set_up(file: str, compiled: Compiled, task: str | None, master: str | None, 
     leader = master_of(graph, chosen, master)
     folder = compiled.sources[0].folder
     if untaught:
-        return RunSetup(chosen, leader, with_zero_weights(make_ready(graph, compiled.sources, leader)), folder, note)
-    return RunSetup(chosen, leader, ready_to_act(file, compiled, leader), folder, note)
+        ready = make_ready(graph, compiled.sources, leader, chosen)
+        return RunSetup(chosen, leader, with_zero_weights(ready), folder, note)
+    return RunSetup(chosen, leader, ready_to_act(file, compiled, leader, chosen), folder, note)
 
 
-def ready_to_act(file: str, compiled: Compiled, master: str | None = None) -> ReadyMind:
-    """The mind under a master, by default its own; SetupError where a skill has no weights that fit."""
+def ready_to_act(file: str, compiled: Compiled, master: str | None = None, task: Task | None = None) -> ReadyMind:
+    """The mind under a master, by default its own, or of all who act in a task; SetupError without weights that fit."""
     _, graph = compiled.whole
-    ready = make_ready(graph, compiled.sources, master)
+    ready = make_ready(graph, compiled.sources, master, task)
     if ready.refusals:
         raise SetupError("\n".join(ready.refusals), train_command(Path(file), ready))
     return ready

@@ -8,7 +8,8 @@ from typing import Any
 from mindrun.files.npy import from_npy
 from mindrun.files.regular_files import read_whole
 from mindrun.graph.policy import Policy
-from mindrun.graph.weights import Weights, owners, parts, reachable
+from mindrun.graph.skill_sets import acting
+from mindrun.graph.weights import Weights, owners, parts
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
 from mindrun.train import NotFoundError
@@ -80,7 +81,7 @@ def _fits(subject: Subject, run: RunFolder) -> bool:
 def players(subject: Subject, place: Place, taught: Sequence[Taught], workers: int) -> Iterator[Rollout | None]:
     """A rollout of a task under a master after each lesson; None where a skill had yet to be taught."""
     task, master = place
-    needed = owners(reachable(subject.graph, master))
+    needed = owners(acting(subject.graph, next(each for each in subject.graph.tasks if each.name == task), master))
     for each in taught:
         weights = {name: each.known[name] for name in needed if name in each.known}
         policy, ready = Policy(subject.graph, weights), len(weights) == len(needed)

@@ -1,11 +1,13 @@
 """Tasks of several robots: where they begin, what each is paid, and what happens to all of them at once."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores
-from mindrun.sim import codes
 from mindrun.sim.rollout import Rollout
+from mindrun.sim.task_rows import rows_by_name
 from mindrun.sim.trace import trace
 
 from tests.sim.minds import DRIFTER, compile_text
@@ -18,9 +20,10 @@ PUSHED = """
 """
 
 
-def rollout(lines: str, interrupt: bool = True) -> Rollout:
+def rollout(lines: str, interrupt: bool = True, first: str = "") -> Rollout:
     """Drifters in an arena, in which one is a mate and others are scouts."""
     task = f"""task Team in arena size 40
+{first}
   contains object is item size 1
   contains mate is robot
   contains scout is robot count 2
@@ -80,10 +83,13 @@ def test_an_end_that_comes_for_one_of_them_comes_for_all_and_each_counts_towards
         ("count 20", lambda x, y: max(abs(x), abs(y)) <= 17),
     ],
 )
-def test_they_begin_where_they_are_said_to(said: str, is_there: object) -> None:
-    assert callable(is_there)
-    run = rollout(f"  draws side from -7 7\n  contains cousin is robot {said}\n")
-    rows = [row for row, thing in enumerate(run.tables.things) if thing["kind"] == codes.OTHER_ROBOT][3:]
-    begun = [tuple(place) for seed in SEEDS for place in trace(run, seed).things[rows, :2]]
+@pytest.mark.parametrize("is_first", [False, True])
+def test_they_begin_where_they_are_said_to(said: str, is_there: Callable[[float, float], bool], is_first: bool) -> None:
+    lines = f"  draws side from -7 7\n  contains cousin is robot {said}\n"
+    run = rollout("", first=lines) if is_first else rollout(lines)
+    rows = rows_by_name(run.task)["cousin"][is_first:]  # the first robot has the first name
+    worlds = [trace(run, seed) for seed in SEEDS]
+    begun = [tuple(place) for world in worlds for place in world.things[rows, :2]]
     assert all(is_there(*place) for place in begun)
     assert len({*begun}) > 1
+    assert all((world.begin[:2] == (-10, -10)).all() for world in worlds)

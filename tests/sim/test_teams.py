@@ -86,3 +86,30 @@ def test_robots_that_push_each_other_equal_plain_pymunk(mates: int, rocks: str, 
         carried += int((world.held[1:robots] >= 0).sum())
     assert met or mates < 7
     assert carried or mates < 7
+
+
+@pytest.mark.parametrize("seed", first(3, range(12)))
+def test_who_is_which_robot_changes_nothing_but_names(seed: int) -> None:
+    """Until one robot touches several solids at once, of which Chipmunk solves one before the other, by their order."""
+    order, rollout = np.array([2, 0, 3, 1]), drifters(3, ROCKS, 4)
+    runs = [ticks(rollout, seed), ticks(rollout, seed)]
+    one, other = (next(run).state for run in runs)
+    for of_robot in (other.world.body, other.world.heading, other.world.trail):
+        of_robot[:, :4] = of_robot[:, order]
+    other.sight.anchor[:, :4] = np.nan
+    for number in range(4):
+        thing = rollout.tables.robots["thing"][number]
+        for lane in range(4):
+            place = other.world.body[:2, number] if lane != number else np.nan
+            other.world.things[4 * thing : 4 * thing + 2, lane] = place
+    compared = 0
+    for _ in zip(*runs, strict=True):
+        pairs = one.contact.pairs[0, one.contact.order[0, : one.contact.space[0]["touching"]]]
+        bodies = np.concatenate([pairs["own"], pairs["other"]])
+        if len(bodies) and np.bincount(bodies)[1:].max(initial=0) > 1:
+            break
+        compared += 1
+        for name in ("body", "held", "acting"):
+            theirs, its = getattr(one.world, name)[..., order], getattr(other.world, name)[..., :4]
+            assert np.array_equal(theirs, its), (name, compared)
+    assert compared > 50

@@ -144,6 +144,11 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     def place(self, meta: Any, parts: list[Any]) -> tuple[Amount, ...]:
         return tuple(parts)
 
+    def contains(self, meta: Any, parts: list[Any]) -> syntax.Contains:
+        name, phrase, *rest = parts
+        master = rest.pop(0) if rest and isinstance(rest[0], Name) else None
+        return syntax.Contains(name, phrase, (*rest, None)[0], self._span(meta), master)
+
     def teaches(self, meta: Any, parts: list[Any]) -> syntax.Teaches:
         skill, task, *rest = parts
         master = rest.pop(0) if isinstance(rest[0], Name) else None

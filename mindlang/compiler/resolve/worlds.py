@@ -139,8 +139,8 @@ def _things(
                 hint = f"A world takes {MAX_OBSTACLES} in all."
                 findings.error("too-many-obstacles", fact.phrase.span, message, hint)
             obstacles += min(kind.obstacles(scene), MAX_OBSTACLES)  # as if there were few where there are too many
-        when = _presence(fact, draws, scope, findings)
-        found.setdefault(name, Thing(name, kind, fact.name.span, when=when, by=by, many=many))
+        when, master = _presence(fact, draws, scope, findings), _master(fact, kind, scope, findings)
+        found.setdefault(name, Thing(name, kind, fact.name.span, when=when, by=by, many=many, master=master))
     for thing in (each for each in found.values() if each.kind and isinstance(each.kind.within, str)):
         zone = found.get(str(thing.kind.within))
         if zone and zone.kind and zone.kind.within:
@@ -181,6 +181,16 @@ def _check_robots(robots: Sequence[Thing], scene: SceneKind | None, body: BodyKi
         if scene and body and count * prod(body.area) > prod(scene.sides):
             message = f"{count} robots, with the first, are larger than the arena."
             findings.error("outside-arena", thing.span, message, "Write a larger arena, or a smaller count.")
+
+
+def _master(fact: Contains, kind: ThingKind | None, scope: Scope, findings: Findings) -> str:
+    """The skill that is in charge of a robot; empty where the line names none, or none that there is."""
+    if fact.master is None:
+        return ""
+    if kind and not kind.is_robot:
+        hint = f"Leave under {fact.master.text} out: a skill is in charge of a robot alone."
+        findings.error("unfit-thing", fact.master.span, f"{fact.name.text} is no robot.", hint)
+    return fact.master.text if scope.names.find(fact.master, ("skill",), findings) else ""
 
 
 def _presence(fact: Contains, draws: Mapping[str, Draw], scope: Scope, findings: Findings) -> When | None:

@@ -146,7 +146,7 @@ class Thing:
     `by` are its x and its y, or all of its way, where the task draws them: programs of numbers alone and of those that
     the task draws. Its kind is then at every place that this may be, or on every way. Of its copies there are as many
     as the task draws with number `many` of its `draws`, from 1 on, and its kind has the most that this may be; all
-    are there where it is 0.
+    are there where it is 0. Of a robot the skill `master` is in charge, or that which is of the first where it is "".
     """
 
     name: str
@@ -154,6 +154,7 @@ class Thing:
     when: Program = left_out(())
     by: tuple[Program, ...] = left_out(())
     many: int = left_out(0)
+    master: str = left_out("")
 
     @property
     def programs(self) -> tuple[Program, ...]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from mindrun.graph.graph import Graph, Sensor, Skill, Task
 from mindrun.graph.named_readings import physical
-from mindrun.graph.skill_sets import reachable
+from mindrun.graph.skill_sets import acting
 from mindrun.numbers.expression import leaves
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> tuple[li
 
 def measured_in_world(graph: Graph, master: str, task: Task) -> list[Sensor]:
     """The sensors that a simulated run measures: what skills below the master, rewards and promises depend on."""
-    reached = reachable(graph, master)
+    reached = acting(graph, task, master)
     skills, aside = used_sensors(graph, reached, task)
     return skills + aside + promised_sensors(graph, reached, skills + aside)
 

@@ -15,6 +15,7 @@ from mindrun.files.strict_json import are_names, is_whole, parsed
 from mindrun.graph.codec import decode, encode
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.named_readings import physical
+from mindrun.graph.tasks import things_of
 from mindrun.graph.validate import MAX_SEED, MAX_TICK_SECONDS, MIN_TICK_SECONDS
 from mindrun.numbers.arrays import Doubles
 from mindrun.numbers.quantity import NUMBER, SECONDS, Quantity
@@ -52,7 +53,7 @@ def world_row(things: int, rewards: int, events: int) -> np.dtype[Any]:
 
 def world_row_of(task: Task) -> np.dtype[Any]:
     """The columns of a task's world after a tick."""
-    things = sum(thing.kind.copies for thing in task.things if not thing.kind.is_obstacle)
+    things = len(things_of(task))
     return world_row(things, len(task.rewards), len(task.events))
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Container, Iterable
 
-from mindrun.graph.graph import Graph, Lesson, Skill
+from mindrun.graph.graph import Graph, Lesson, Skill, Task
 
 
 def genes(skill: Skill) -> int:
@@ -13,6 +13,17 @@ def genes(skill: Skill) -> int:
 def reachable(graph: Graph, master: str) -> tuple[Skill, ...]:
     """The skills that can have influence when `master` is in charge, parents first."""
     return below(graph, next(index for index, skill in enumerate(graph.skills) if skill.name == master))
+
+
+def masters_of(task: Task, master: str) -> tuple[str, ...]:
+    """The skills that are in charge of robots of a task, where `master` is of the first."""
+    return tuple(dict.fromkeys((master, *filter(None, (thing.master for thing in task.things)))))
+
+
+def acting(graph: Graph, task: Task, master: str) -> tuple[Skill, ...]:
+    """The skills that can have influence on any robot of a task, parents first, where `master` is of the first."""
+    found = {skill.name for each in masters_of(task, master) for skill in reachable(graph, each)}
+    return tuple(skill for skill in graph.skills if skill.name in found)
 
 
 def below(graph: Graph, index: int) -> tuple[Skill, ...]:

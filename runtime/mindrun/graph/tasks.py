@@ -5,7 +5,7 @@ from importlib.metadata import PackageNotFoundError, version
 from itertools import chain
 from typing import Any
 
-from mindrun.graph.graph import Graph, Task, Variation
+from mindrun.graph.graph import Graph, Task, Thing, Variation
 from mindrun.graph.measured import measured_in_world, with_sources
 from mindrun.graph.skill_sets import reachable
 from mindrun.kinds.things.thing import MOVES, STAYS
@@ -49,6 +49,21 @@ def default_task(graph: Graph) -> tuple[Task, str]:
 def _why(graph: Graph, what: str) -> str:
     said = f"no lesson is under {graph.master}, so the task is {what}; --task names another"
     return said if graph.lessons and len(graph.tasks) > 1 else ""
+
+
+def own_name(task: Task) -> str:
+    """The name that the first robot has for others: that of the first under its master; empty where it has none."""
+    return next((thing.name for thing in task.things if thing.kind.is_robot and not thing.master), "")
+
+
+def things_of(task: Task) -> list[Thing]:
+    """The things of a task but its obstacles, each as many times as there are copies of it: the rows of the lanes.
+
+    The first robot is one more of those that have its name, before them.
+    """
+    own = own_name(task)
+    apart = (thing for thing in task.things if not thing.kind.is_obstacle)
+    return [thing for thing in apart for _ in range(thing.kind.copies + (thing.kind.is_robot and thing.name == own))]
 
 
 def goals(graph: Graph, task: Task) -> frozenset[str]:

@@ -8,7 +8,8 @@ from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Graph, Sensor, Task
 from mindrun.graph.measured import promised_sensors, rows_of, used_sensors
 from mindrun.graph.scopes import influence_scopes
-from mindrun.graph.weights import genes, reachable
+from mindrun.graph.skill_sets import acting
+from mindrun.graph.weights import genes
 from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.arithmetic import BOX_COLUMNS
 from mindrun.numbers.arrays import Array, Singles
@@ -34,10 +35,10 @@ def build(
 ) -> tuple[Tables, Sizes]:
     """The tables of a task under a master; `addresses` are those of the compiled procedures, by skill."""
     programs, parameters = Programs(task_rows.first_numbers(task)), Parameters(graph, task)
-    reached = reachable(graph, master)
+    reached = acting(graph, task, master)
     skills, most = skill_rows(graph, reached, weights, learners, addresses, programs)
     judging = task_rows.judging_rows(task, programs)
-    contents = task_rows.content_rows(graph, task, parameters, programs)
+    contents = task_rows.content_rows(graph, task, master, parameters, programs)
     used, aside = used_sensors(graph, reached, task)
     exact = promised_sensors(graph, reached, used + aside)
     sensors, remembered = sensor_rows(graph, (used, aside, exact), task, programs, parameters)
@@ -47,7 +48,7 @@ def build(
     walls = [wall for thing in task.things for wall in thing.kind.walls]
     tables = Tables(
         **sensors, **skills, **contents,
-        world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside + exact, master),
+        world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside + exact),
         codes=np.array(programs.rows, CODE), actuators=driven, memories=memory_rows(graph),
         loose=task_rows.loose_rows(task, graph.tick, parameters), options=task_rows.option_rows(task),
         walls=np.array(walls, np.float64).reshape(-1, BOX_COLUMNS),

@@ -12,8 +12,8 @@ import numpy as np
 from mindrun.numbers.arrays import Array
 from mindrun.sim.arrays import Block, table
 
-PUSH, STEERING, GRIPPER, IDLE, SERVO = range(5)
-ITEM, ZONE, POWER, BOX, BALL, WALKER, OTHER_ROBOT = range(7)
+PUSH, STEERING, GRIPPER, IDLE, SERVO, SIGNAL = range(6)
+ITEM, ZONE, POWER, BOX, BALL, WALKER, OTHER_ROBOT, SLOPE = range(8)
 STAYS, MOVES, VANISHES = range(3)
 PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE, ITS_REWARD, APART, DRAWN_NUMBER, TALLIED, TIME = range(10)
 REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION, SUCCESS, ITS_END, LEAVE = range(8)
@@ -31,10 +31,11 @@ FORCE, TORQUE, FORCE_X, FORCE_Y, FORCE_ASIDE, PUSH_ROWS = range(6)  # rows of wh
 
 ACTUATOR_CODES = {
     "wheel": PUSH, "motor": PUSH, "thruster": PUSH, "steering": STEERING, "gripper": GRIPPER,
-    "servo": SERVO, "lamp": IDLE, "action": IDLE, "choice": IDLE,
+    "servo": SERVO, "signal": SIGNAL, "lamp": IDLE, "action": IDLE, "choice": IDLE,
 }  # fmt: skip
 THING_CODES = {
     "item": ITEM, "zone": ZONE, "power": POWER, "box": BOX, "ball": BALL, "walker": WALKER, "robot": OTHER_ROBOT,
+    "slope": SLOPE,
 }  # fmt: skip
 MEASURE_CODES = {
     "progress": PROGRESS, "advance": ADVANCE, "retreat": RETREAT, "forward": FORWARD, "change": CHANGE,
@@ -96,10 +97,10 @@ MEMORY = _columns(i8="row kept left right compass", u8="lane", f8="left_way righ
 THING = _columns(
     i8="kind drawn is_round is_fixed reached delivered is_reached is_delivered is_area loose settles walker is_goal "
     "number copy copies option options is_within inside insides x_row y_row",
-    f8="first last by low high hold x y left right below above",
+    f8="first last by low high hold x y left right below above slide_x slide_y pull_x pull_y",
 )
 LOOSE = _columns(i8="thing is_round density friction slower number step thrust after afters aim", f8="range")
-MATE = _columns(i8="thing")
+TEAM = _columns(i8="thing master paid")
 WALKING = _columns(i8="thing way ways copy is_anywhere is_drawn step turn after afters aim", f8="range")
 WAY = _columns(i8="first places")
 CORNER = _columns(i8="next x_row y_row", f8="x y")
@@ -112,8 +113,8 @@ END = _columns(i8="event times when whens succeeds is_end box boxes")
 TALLY = _columns(i8="event when whens code length longest row")
 REWARD = _columns(i8="code length on each eachs when whens last")
 WORLD = _columns(
-    i8="linear angular friction mass moment mass_inv moment_inv is_round is_placed is_faced ticks rays master battery "
-    "number robots items hash_size",
+    i8="linear angular friction mass moment mass_inv moment_inv is_round is_placed is_faced ticks rays battery "
+    "number paid items hash_size slopes",
     f8="dt radius front side arm least slop cell axles half_x half_y start_x start_y facing start drain charge near "
     "claw",
 )
@@ -175,7 +176,7 @@ class Tables(Block):
     parameters: Array = table(PARAMETER)
     things: Array = table(THING)
     loose: Array = table(LOOSE)
-    mates: Array = table(MATE)  # the robots of a world but the first, which is none of its things
+    robots: Array = table(TEAM)  # of a world, each with the row of `things` that it is to the others, or −1
     walkers: Array = table(WALKING)
     ways: Array = table(WAY)  # that walkers go along
     corners: Array = table(CORNER)  # the places of ways

@@ -14,8 +14,8 @@ import numpy as np
 
 from mindrun.engine.engine import procedure_sources
 from mindrun.errors import ProcedureError
-from mindrun.graph.graph import Graph, Skill
-from mindrun.graph.weights import reachable
+from mindrun.graph.graph import Graph, Skill, Task
+from mindrun.graph.skill_sets import acting, masters_of
 from mindrun.kinds import procedure_call
 from mindrun.kinds.procedure_call import load
 from mindrun.kinds.procedure_text import module_of
@@ -30,23 +30,26 @@ def call_procedure(address, gathered, hidden, n):
 
 
 class Procedures:
-    """The procedures that a master can reach, by skill: which Python function each `calls`.
+    """The procedures of skills that act in a task, by skill: which Python function each `calls`.
 
     `addresses` are those of the compiled ones, `slow` has the others, with the reason. ProcedureError where a module or
     function is not there.
     """
 
-    def __init__(self, graph: Graph, master: str, folder: Path | None) -> None:
+    def __init__(self, graph: Graph, task: Task, master: str, folder: Path | None) -> None:
         self.addresses: dict[str, int] = {}
         self.slow: dict[str, str] = {}
         self._kept: list[Any] = []
-        skills = [skill for skill in reachable(graph, master) if skill.function.calls is not None]
+        acts = acting(graph, task, master)
+        skills = [skill for skill in acts if skill.function.calls is not None]
         self.calls = {skill.name: str(skill.function.calls) for skill in skills}
         self._outputs = {skill.name: skill.outputs for skill in skills}
-        self._sources = procedure_sources(graph, folder or Path(), master)
+        self._sources: dict[str, str | bytes] = {}
+        for leader in masters_of(task, master):
+            self._sources |= procedure_sources(graph, folder or Path(), leader)
         for skill in skills:
             self._prepare(skill)
-        found = {skill.name: skill.function for skill in reachable(graph, master) if skill.function.in_arrays}
+        found = {skill.name: skill.function for skill in acts if skill.function.in_arrays}
         self.arrays: dict[str, Any] = found  # of skills that are computed in numpy
         self.slow |= {skill: f"{names()[type(each)]} is computed in numpy" for skill, each in found.items()}
 

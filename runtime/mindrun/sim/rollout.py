@@ -70,7 +70,7 @@ class Rollout:
             said = f"{task} is in the environment {name}, which cannot be simulated otherwise"
             raise MindError(said, "mindc run, bench, train and view step it.")
         self.is_one_world = is_one_world(graph, self.task, master)
-        self.procedures = Procedures(graph, master, procedures)
+        self.procedures = Procedures(graph, self.task, master, procedures)
         self.interrupt, self.workers, self.lanes = interrupt, workers, lanes
         named, learners = {skill.name: skill for skill in graph.skills}, [*dict.fromkeys(learners)]
         self.learners = tuple(named[name] for name in learners)
@@ -139,13 +139,13 @@ class Rollout:
 
     def tile(self, lanes: int) -> Tile:
         """A tile with room for so many worlds, of as many lanes as robots each."""
-        lanes *= int(self.tables.world[0]["robots"])
+        lanes *= len(self.tables.robots)
         return Tile(empty_state(self.tables, self.sizes, lanes), Memories(self.procedures))
 
     def _run(self, jobs: Jobs, share: Integers, stop: Event, ran: Callable[[float], None]) -> Jobs:
         lines, events = jobs.lines.shape[1], jobs.counts.shape[1]
         mine = unbegun(jobs.genomes, jobs.seeds, jobs.most, jobs.genome[share], jobs.seed[share], lines, events)
-        robots = int(self.tables.world[0]["robots"])
+        robots = len(self.tables.robots)
         tile = self.tile(lanes_for(len(share), max(1, self.lanes // robots)))
         self.fill(tile, mine)
         told, working = 0.0, 1

@@ -54,6 +54,7 @@ class WorldState(Block):
     drive: Array = rows("loose", PLACE_ROWS)  # the force that each loose thing drives itself with
     acting: Array = rows("actuators", kind=F4)  # the commands as they act, after noise and failures
     grip: Array = rows("actuators")  # the share of its force that each keeps
+    said: Array = rows("robots", kind=F4)  # what each robot has said in the tick before
     begun_at: Array = rows(PLACE_ROWS)  # where the robot was when the tick began
 
 
@@ -161,7 +162,7 @@ SENSED: Mapping[str, tuple[type[Block], tuple[str, ...]]] = {
     "mind": (MindState, ("readings", "before", "stack", "active", "influence")),
     "sight": (SightState, ("nearest", "nearest_of", "frame", "sight", "nearby", "nearby_count")),
     "world": (WorldState, (
-        "body", "heading", "things", "held", "battery", "tick", "trail", "loose", "boxes", "seed", "swivel",
+        "body", "heading", "things", "said", "held", "battery", "tick", "trail", "loose", "boxes", "seed", "swivel",
     )),
 }  # fmt: skip
 Senses = make_dataclass(
@@ -257,7 +258,7 @@ def _empty(part: type[Part], n: Mapping[str, int], lanes: int, **known: Array) -
 def _counts(tables: Tables, sizes: Mapping[str, int]) -> dict[str, int]:
     """The numbers that arrays say their rows or columns by: lengths of tables, Sizes, and sums of these."""
     n = {name: len(getattr(tables, name)) for name in tables.layout()} | dict(sizes)
-    movers, fixed = ROBOT_SOLIDS * (1 + n["mates"]) + n["loose"], n["boxes"] + WALL_COUNT
+    movers, fixed = ROBOT_SOLIDS * n["robots"] + n["loose"], n["boxes"] + WALL_COUNT
     return n | {
         "sinks": n["actuators"] + n["memories"],
         "sight": FIRST_RAY + n["ray_row"],
@@ -266,5 +267,5 @@ def _counts(tables: Tables, sizes: Mapping[str, int]) -> dict[str, int]:
         "windows": sum(1 for event in tables.events if event["after"] >= 0),
         "close": fixed,
         "solids": ROBOT + movers,
-        "pairs": min(MOST_PAIRS + PAIRS_EACH * (n["loose"] + n["mates"]), movers * (movers + fixed) + SPARE_PAIRS),
+        "pairs": min(MOST_PAIRS + PAIRS_EACH * (n["loose"] + n["robots"] - 1), movers * (movers + fixed) + SPARE_PAIRS),
     }

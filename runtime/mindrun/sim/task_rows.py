@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mindrun.graph.graph import Graph, Sensor, Task, Thing
-from mindrun.graph.tasks import goals
+from mindrun.graph.tasks import goals, own_name, things_of
 from mindrun.kinds.registry import names
 from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.things.thing import OUTCOMES, STAYS, ThingKind
@@ -28,11 +28,6 @@ LEAST_SOLID_UNITS = 1e-3  # half a side that is smaller counts as this
 MIN_NEAR_UNITS = 1.0  # beyond the body's rim
 EVERY_RUN: Row = {"x_row": SAME_IN_EVERY_RUN, "y_row": SAME_IN_EVERY_RUN}  # a place that is the same in all
 NOWHERE = range(-1, -1)  # rows of a thing that the task does not contain
-
-
-def things_of(task: Task) -> list[Thing]:
-    """The things of a task but its obstacles, in rows of the lanes: each as many times as there are copies of it."""
-    return [thing for thing in task.things if not thing.kind.is_obstacle for _ in range(thing.kind.copies)]
 
 
 def rows_by_name(task: Task) -> dict[str, range]:
@@ -64,8 +59,16 @@ def opened_boxes(task: Task) -> set[int]:
 
 
 def robot_rows(task: Task) -> list[int]:
-    """The rows of `things_of` that are robots: the second robot of the world, the third …"""
-    return [row for row, thing in enumerate(things_of(task)) if thing.kind.is_robot]
+    """The row of `things_of` that each robot of the world is to the others; −1 for a first one that is none."""
+    own = rows_by_name(task)[own_name(task)].start
+    others = (row for row, thing in enumerate(things_of(task)) if thing.kind.is_robot and row != own)
+    return [own, *others]
+
+
+def paid_robots(task: Task) -> int:
+    """The number of robots of a task's world to which happens what counts."""
+    things = things_of(task)
+    return 1 + sum(things[row].kind.paid for row in robot_rows(task)[1:])
 
 
 class HashNumbers(NamedTuple):
@@ -83,7 +86,7 @@ class HashNumbers(NamedTuple):
 
 
 def hash_numbers(task: Task) -> HashNumbers:
-    things, robots = [thing.kind for thing in things_of(task)], 1 + len(robot_rows(task))
+    things, robots = [thing.kind for thing in things_of(task)], len(robot_rows(task))
     robot = sum(each.kind.obstacles(task.scene) for each in task.things) + WALL_COUNT * task.scene.is_bounded
     items = sum(kind.can_be_held for kind in things)
     held = [*accumulate((kind.can_be_held for kind in things), initial=robot + robots - 1)]
@@ -92,14 +95,20 @@ def hash_numbers(task: Task) -> HashNumbers:
     return HashNumbers(robot, numbers, items, next(prime for prime in HASH_SIZES if prime > 1 + loose[-1] - robot))
 
 
-def content_rows(graph: Graph, task: Task, parameters: Parameters, programs: Programs) -> dict[str, Array]:
+def content_rows(graph: Graph, task: Task, master: str, parameters: Parameters, programs: Programs) -> dict[str, Array]:
     """The tables of what a task contains; programs of where it is, and of whether it is there, go to `programs`."""
+    things, numbers = things_of(task), graph.skill_numbers
+    robots: list[Row] = [{"thing": robot_rows(task)[0], "master": numbers[master], "paid": 1}]
+    robots += [
+        {"thing": row, "master": numbers[things[row].master or master], "paid": things[row].kind.paid}
+        for row in robot_rows(task)[1:]
+    ]
     return {
         "things": thing_rows(graph, task, parameters, programs),
         "obstacles": obstacle_rows(task, parameters, programs),
         "presences": presence_rows(task, programs),
         **walker_rows(task, graph.tick, parameters, programs),
-        "mates": records([{"thing": row} for row in robot_rows(task)], codes.MATE),
+        "robots": records(robots, codes.TEAM),
     }
 
 
@@ -111,14 +120,15 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
     options = 0
     loose, walkers, zones = count(), count(), [thing.kind for thing in task.things if thing.kind.takes_items]
     zones_stay = all(outcome == STAYS for zone in zones for outcome in zone.outcomes.values())
-    first = {name: found.start for name, found in rows_by_name(task).items()}
+    first, own = {name: found.start for name, found in rows_by_name(task).items()}, robot_rows(task)[0]
     numbers = hash_numbers(task).things
     for number, thing in enumerate(things_of(task)):
-        kind, size, copy = thing.kind, thing.kind.size, number - first[thing.name]
+        kind, size = thing.kind, thing.kind.size
+        copy = number - first[thing.name] - (thing.name == own_name(task))  # −1 of the first robot, which is no copy
         low, high = kind.distances(task.scene)
         x, y = kind.places[copy] if kind.places else (0.0, 0.0)
         is_drawn = bool(kind.options) or (kind.walks and not kind.wanders)
-        own = _drawn_places(thing, parameters, programs)[:1] if not kind.ways else []
+        place = _drawn_places(thing, parameters, programs)[:1] if not kind.ways else []
         if kind.is_robot:
             size = Span(2 * graph.body.radius, 2 * graph.body.radius)
         if kind.is_loose:  # not in the robot
@@ -126,13 +136,15 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
         row: dict[str, float] = {
             "kind": codes.THING_CODES[names()[type(kind)]], "first": size.first, "last": size.last,
             "by": size.by or 0.0, "drawn": size.by is None and size.first != size.last, "low": low, "high": high,
-            "hold": graph.body.front + kind.largest / 2, "is_fixed": bool(kind.places) or is_drawn, "x": x, "y": y,
-            "is_round": kind.is_round and not (kind.is_robot and graph.body.outline),
+            "hold": graph.body.front + kind.largest / 2, "is_fixed": (bool(kind.places) or is_drawn) and number != own,
+            "x": x, "y": y,
+            "is_round": kind.is_round,
             "is_area": kind.is_area, "is_goal": thing.name in never,
             "loose": next(loose) if kind.is_loose else -1, "settles": kind.is_loose and zones_stay,
             "walker": next(walkers) if kind.walks else -1, "number": numbers[number],
-            "copy": copy, "copies": kind.copies, "option": options, "options": 0 if own else len(kind.options),
-            **_region(kind, rows_by_name(task)), **(own[0] if own else EVERY_RUN),
+            "copy": copy, "copies": kind.copies, "option": options, "options": 0 if place else len(kind.options),
+            **(_steepness(kind, graph.tick) if kind.is_steep else {}),
+            **_region(kind, rows_by_name(task)), **(place[0] if place else EVERY_RUN),
         }  # fmt: skip
         options += len(kind.options) if copy + 1 == kind.copies else 0
         for what in ("reached", "delivered"):
@@ -142,6 +154,12 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
         row["is_delivered"] = row["is_delivered"] and bool(zones)  # elsewhere nobody looks for zones
         rows.append(row)
     return records(rows, codes.THING)
+
+
+def _steepness(kind: Any, dt: float) -> Row:
+    """The columns of a slope: how far an item slides down in a tick, and the force that draws a robot down."""
+    (x, y), far = kind.down, kind.slides * dt
+    return {"slide_x": x * far, "slide_y": y * far, "pull_x": x * kind.pull, "pull_y": y * kind.pull}
 
 
 def _region(kind: ThingKind, places: Mapping[str, range]) -> Row:
@@ -342,9 +360,7 @@ def reward_rows(task: Task, programs: Programs) -> Array:
     return records(rows, codes.REWARD)
 
 
-def world_row(
-    graph: Graph, task: Task, parameters: Parameters, rays: int, used: Sequence[Sensor], master: str
-) -> Array:
+def world_row(graph: Graph, task: Task, parameters: Parameters, rays: int, used: Sequence[Sensor]) -> Array:
     """The numbers of the body, the battery and the scene."""
     body, scene, begin = graph.body, task.scene, task.start
     numbers = hash_numbers(task)
@@ -361,9 +377,10 @@ def world_row(
         "half_x": half_x, "half_y": half_y, "is_placed": begin.at is not None, "start_x": start_x, "start_y": start_y,
         "is_faced": begin.facing is not None, "facing": begin.facing or 0.0, "ticks": task.ticks,
         "start": battery.start if powered else np.nan, "drain": battery.drain, "charge": battery.charge, "rays": rays,
-        "near": near, "master": graph.skill_numbers[master], "claw": graph.claw_reach, "battery": powered,
+        "slopes": sum(thing.kind.is_steep for thing in task.things),
+        "near": near, "claw": graph.claw_reach, "battery": powered,
         "number": numbers.robot, "items": numbers.items, "hash_size": numbers.size,
-        "robots": 1 + len(robot_rows(task)),
+        "paid": paid_robots(task),
     }  # fmt: skip
     return records([row], codes.WORLD)
 

@@ -168,7 +168,7 @@ def last_touch(rollout: Rollout, state: State) -> Touch | None:
     points = pair["contacts"][: pair["count"]]
     x, y = (points[name].mean() for name in (("x", "y") if pair["own"] == ROBOT else ("its_x", "its_y")))
     ahead, aside = heading[COSINE] * x + heading[SINE] * y, heading[COSINE] * y - heading[SINE] * x
-    box = pair["found"] - ROBOT - ROBOT_SOLIDS * int(rollout.tables.world[0]["robots"]) - len(rollout.tables.loose)
+    box = pair["found"] - ROBOT - ROBOT_SOLIDS * len(rollout.tables.robots) - len(rollout.tables.loose)
     return Touch(float(ahead), float(aside), int(box), int(pair["thing"]))
 
 

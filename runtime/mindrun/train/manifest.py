@@ -18,9 +18,10 @@ from mindrun.errors import BundleError
 from mindrun.files.strict_json import is_whole, parsed
 from mindrun.graph.codec import decode_part, encode
 from mindrun.graph.graph import Graph, Lesson
+from mindrun.graph.skill_sets import acting
 from mindrun.graph.tasks import installed_version
 from mindrun.graph.validate import lesson_flaws
-from mindrun.graph.weights import Weights, reachable
+from mindrun.graph.weights import Weights
 from mindrun.kinds.environment import module_beside
 from mindrun.kinds.functions.procedure import module_source
 from mindrun.kinds.registry import brought_by
@@ -75,8 +76,8 @@ class Manifest:
 
 def fingerprint(graph: Graph, lesson: Lesson, procedures: Path | None) -> str:
     """The SHA-256 of what a lesson depends on: its task, the skills under its master, the body, the modules beside."""
-    skills = reachable(graph, lesson.master)
     tasks = tuple(task for task in graph.tasks if task.name == lesson.task)
+    skills = acting(graph, tasks[0], lesson.master)
     # To freeze a skill changes the lesson of no other.
     thawed = tuple(replace(skill, frozen=False) for skill in graph.skills)
     scope = replace(graph, master=lesson.master, skills=thawed, tasks=tasks, lessons=())

@@ -48,6 +48,7 @@ class ActuatorKind(OfEnvironment):
     is_motor = False  # whether its command is a speed, for which friction may let it need a least one
     carries = False  # whether a sensor can sit on it and turn with it
     is_light = False  # whether it shines with its command
+    is_said = False  # whether other robots read its command
     reach: float | None = None  # ahead of the body, within which it takes items, in world units; None where none
     mounted: Side | None = None  # the side of the body that it is on, where that says what it does
     acts_at_rest = False  # whether its neutral command does something in the world
@@ -273,6 +274,17 @@ class Lamp(ActuatorKind):
 
     zero = 0.0
     is_light = True
+
+
+@kind("actuator", "signal")
+class Signal(ActuatorKind):
+    """What the robot says to the other robots of its world, a number; their sensors `signal` read it a tick later."""
+
+    neutral: Ratio
+    delay: Ticks = 0
+
+    zero = 0.0
+    is_said = True
 
 
 @kind("actuator", "action")

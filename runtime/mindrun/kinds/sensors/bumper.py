@@ -21,7 +21,7 @@ WIDTH = Quantity("an angle", {"deg": pi / 180}, low=pi / 180, high=2 * pi)
 class Bumper(Physical):
     """Switches around the body, one reading per angle: 1 while something solid touches it there, else 0.
 
-    That is an obstacle, a wall, or a box or ball that can be pushed; what the claw holds has no switch.
+    That is an obstacle, a wall, another robot, or a box or ball that can be pushed; what the claw holds has no switch.
     Angles turn counterclockwise from straight ahead; each switch is `width` wide, half of it to either side.
     """
 
@@ -61,6 +61,9 @@ class Bumper(Physical):
             press(t, s, sensor, 0.0, -half_y - y, True, p)
             for i in range(len(t.loose)):
                 lean(t, s, sensor, i, p)
+            for i in range(len(t.robots)):
+                if t.robots[i].thing >= 0:
+                    lean_disc(t, s, sensor, t.robots[i].thing, p)
 
 
 def lean(t: Any, s: Any, sensor: Any, i: Any, p: Any) -> None:
@@ -68,17 +71,23 @@ def lean(t: Any, s: Any, sensor: Any, i: Any, p: Any) -> None:
     x, y = place_of(s.things, t.loose[i].thing, p)
     dx, dy = x - s.body[X, p], y - s.body[Y, p]
     half = size_of(s.things, t.loose[i].thing, p) / 2
-    if np.isnan(dx):
-        return  # it has vanished
     if t.loose[i].is_round:
-        far = np.sqrt(dx * dx + dy * dy)
-        share = 1.0 - half / far if far > half else 0.0
-        press(t, s, sensor, dx * share, dy * share, False, p)
-    else:
+        lean_disc(t, s, sensor, t.loose[i].thing, p)
+    elif not np.isnan(dx):  # it has not vanished
         sn, c = sine_cosine(s.loose[LOOSE_ROWS * i + TURN, p])
         along, across = beyond(c * dx + sn * dy, half), beyond(c * dy - sn * dx, half)
         is_flat = along == 0.0 or across == 0.0
         press(t, s, sensor, c * along - sn * across, sn * along + c * across, is_flat, p)
+
+
+def lean_disc(t: Any, s: Any, sensor: Any, thing: Any, p: Any) -> None:
+    """Press the switches of lane p that a thing touches which is a disc."""
+    x, y = place_of(s.things, thing, p)
+    dx, dy, half = x - s.body[X, p], y - s.body[Y, p], size_of(s.things, thing, p) / 2
+    far = np.sqrt(dx * dx + dy * dy)
+    share = 1.0 - half / far if far > half else 0.0
+    if not np.isnan(dx):  # it has not vanished
+        press(t, s, sensor, dx * share, dy * share, False, p)
 
 
 def beyond(away: Any, side: Any) -> Any:

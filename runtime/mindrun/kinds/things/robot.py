@@ -9,22 +9,26 @@ from mindrun.kinds.things.thing import DEFAULT_DISTANCE, Alternatives, ThingKind
 from mindrun.numbers.quantity import Lengths, Places, Quantity
 
 MOST_ROBOTS = 64  # in one world
-COUNT = Quantity("a whole number", {"": 1.0}, low=1, high=MOST_ROBOTS - 1, whole=True)
+PAID = Quantity("0 or 1", {"": 1.0}, low=0, high=1, whole=True)
+COUNT = Quantity("a whole number", {"": 1.0}, low=0, high=MOST_ROBOTS - 1, whole=True)
 
 
 @kind("content", "robot")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Robot(ThingKind):
-    """Other robots with the body and the mind of the first, `count` of them, each with a claw and memories of its own.
+    """Other robots with the body of the first, `count` of them, each with a claw and memories of its own.
 
-    They push each other as balls and boxes do. They begin where the first could: anywhere clear in an arena, `away`
-    from it, or `at` places; and face anywhere. What a robot is to the first, the first is to it.
+    The same master is in charge of them, or the skill that they are `under`. The first robot is one more of the first
+    name under its master; with `count 0` it is alone in that. They push each other as balls and boxes do. They begin
+    where the first could: anywhere clear in an arena, `away` from it, or `at` places; and face anywhere. With `paid 0`
+    they are a part of the world: nothing that happens to them is rewarded or counted, or ends a run.
     """
 
     count: Annotated[int, COUNT] = 1
     away: Lengths = DEFAULT_DISTANCE
     at: Places = ()
     or_: Alternatives = left_out(())
+    paid: Annotated[int, PAID] = left_out(1)
 
     is_robot = True
     is_solid = True

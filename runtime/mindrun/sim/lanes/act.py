@@ -115,7 +115,7 @@ def grip(tables: Tables, state: State, i: int, lanes: int) -> None:
 
     Of several robots the nearest to an item has it, of equally near ones the first.
     """
-    world, kinds, commands, robots = state.world, tables.things, state.world.acting[i], tables.world[0].robots
+    world, kinds, commands, robots = state.world, tables.things, state.world.acting[i], len(tables.robots)
     held, things, changing = world.held, world.things, 0
     for lane in range(lanes):
         changing += (commands[lane] > HALF) != (held[lane] >= 0)
@@ -152,7 +152,7 @@ def has_room(tables, world, i, lane):
     x, y = place_of(world.things, i, lane)
     half, (own_x, own_y) = size_of(world.things, i, lane) / 2, middle_of(world.body, lane)
     to_x, to_y = own_x + cosine * hold, own_y + sine * hold
-    if len(tables.mates) > 0 and meets_robot(tables, world, i, to_x, to_y, lane):
+    if len(tables.robots) > 1 and meets_robot(tables, world, i, to_x, to_y, lane):
         return False
     for from_x, from_y in ((own_x, own_y), (x, y)):
         if is_barred(world.boxes, tables.world[0], from_x, from_y, to_x, to_y, CLOSED_UNITS, lane):
@@ -169,7 +169,7 @@ def has_room(tables, world, i, lane):
 @OF_SEVERAL
 def meets_robot(tables: Tables, world: WorldState, i: int, to_x: float, to_y: float, lane: int) -> int:
     """True if item i would meet another robot, or what that holds, on its way to a place in the claw of a lane."""
-    robots, things = tables.world[0].robots, world.things
+    robots, things = len(tables.robots), world.things
     (x, y), half = place_of(things, i, lane), size_of(things, i, lane) / 2
     home, found = lane - lane % robots, False
     for other in range(home, home + robots):

@@ -59,7 +59,7 @@ def conclude(tables: Tables, state: State, jobs: Jobs, interrupt: int) -> None:
     over, ticks, ended = 0, jobs.most[0], state.run.ended
     for lane in range(lanes):
         over += is_lost(world.body, lane) | (ended[lane] != GOING_ON) | (world.tick[lane] >= ticks)
-    robots = tables.world[0].robots
+    robots = len(tables.robots)
     for k in range(lanes // robots if over > 0 else 0):
         end(tables, state, jobs, lanes - robots * (k + 1))
 

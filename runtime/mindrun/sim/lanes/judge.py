@@ -8,7 +8,7 @@ from mindrun.sim import codes
 from mindrun.sim.codes import DELIVERY, GOING_ON, LEAVE, REACH, Tables
 from mindrun.sim.lanes.placement import OF_SEVERAL
 from mindrun.sim.lanes.reaching import arrivals, become, begun_of, cross, meet
-from mindrun.sim.lanes.sharing import share
+from mindrun.sim.lanes.sharing import is_paid, share
 from mindrun.sim.lanes.solid import remove_box
 from mindrun.sim.lanes.think import run_program
 from mindrun.sim.state import PLACE_ROWS, JudgeState, State, WorldState
@@ -25,6 +25,8 @@ def judge(tables: Tables, state: State, lanes: int, clock: int, interrupt: int) 
     begun = meet(tables, world, lanes)
     for i in range(len(tables.events)):
         judged.happened[i] = notice(tables, state, i, judged.events[i], lanes)
+    if tables.world[0].paid < len(tables.robots):
+        pass_over(tables, judged, lanes)
     for i in range(len(tables.events)):
         if tables.events[i].after >= 0:
             judged.happened[i] = keep_soon(tables, state, i, lanes)
@@ -39,7 +41,7 @@ def judge(tables: Tables, state: State, lanes: int, clock: int, interrupt: int) 
         reward(tables, state, tables.rewards[i], judged.lines[i], lanes)
     if begun > 0:
         become(tables, world, lanes)
-        if len(tables.mates) > 0:
+        if len(tables.robots) > 1:
             share(tables, world, lanes)
     oldest = PLACE_ROWS * (clock % TRAIL_TICKS)
     for lane in range(lanes):
@@ -108,7 +110,7 @@ def notice(tables, state, i, out, lanes):
     elif event.kind == DELIVERY and event.tos == 0:
         begun_of(out, world.delivered, event, lanes)
     elif event.kind == DELIVERY:
-        arrivals(world, judged.arrived, event, out, tables.world[0].robots, lanes)
+        arrivals(world, judged.arrived, event, out, len(tables.robots), lanes)
     elif event.kind == codes.VISIT:
         for lane in range(lanes):  # the first time that the robot's centre is in a patch
             patch = event.board + patch_of(world.body, tables.world[0], event, lane)
@@ -130,12 +132,11 @@ def notice(tables, state, i, out, lanes):
 @OF_SEVERAL
 def bump(tables: Tables, state: State, i: int, lanes: int) -> None:
     """Count the robots of event i that each begins to touch in this tick."""
-    event, mates, robots, out = tables.events[i], state.contact.mates, tables.world[0].robots, state.judge.events[i]
+    event, mates, robots, out = tables.events[i], state.contact.mates, len(tables.robots), state.judge.events[i]
     for lane in range(lanes):
         begun, out[lane] = mates[0, lane] & ~mates[1, lane], 0.0
         for number in range(robots):
-            # What another is to the first, the first is to it.
-            thing = tables.mates[(number if number > 0 else lane % robots) - 1].thing
+            thing = tables.robots[number].thing
             is_about = event.thing <= thing < event.thing + event.things
             out[lane] += 1.0 if begun >> number & 1 == 1 and is_about else 0.0
 
@@ -206,7 +207,7 @@ def meet_end(tables, state, end, i, lanes, interrupt):
         run_program(tables, state, end.when, end.whens, 0, lanes, True)
         for lane in range(lanes):
             judged.paid[lane] = 1.0 if state.mind.stack[0, lane] > 0.0 else 0.0
-    if len(tables.mates) > 0:
+    if len(tables.robots) > 1:
         end_together(tables, judged, lanes)
     if not end.is_end:
         open_boxes(tables, state, i, lanes)
@@ -223,7 +224,7 @@ def meet_end(tables, state, end, i, lanes, interrupt):
 
 def come_by_event(tables, judged, end, lanes):
     """Set `paid` to 1 where the event of an end happens, and has so often to the robots of a world together."""
-    robots, is_common = tables.world[0].robots, tables.events[end.event].is_common
+    robots, is_common = len(tables.robots), tables.events[end.event].is_common
     for home in range(0, lanes, robots):
         times = 0
         for lane in range(home, home + (1 if is_common else robots)):
@@ -233,13 +234,22 @@ def come_by_event(tables, judged, end, lanes):
 
 
 @OF_SEVERAL
+def pass_over(tables: Tables, judged: JudgeState, lanes: int) -> None:
+    """Let nothing have happened to robots to which nothing happens that counts."""
+    for lane in range(lanes):
+        if not is_paid(tables, lane % len(tables.robots)):
+            judged.events[: len(tables.events), lane] = 0.0
+
+
+@OF_SEVERAL
 def end_together(tables: Tables, judged: JudgeState, lanes: int) -> None:
     """Let an end that has come for one robot of a world have come for all of them."""
     for lane in range(lanes):
-        home = lane - lane % tables.world[0].robots
-        judged.paid[home] = max(judged.paid[home], judged.paid[lane])
+        number = lane % len(tables.robots)
+        if is_paid(tables, number):
+            judged.paid[lane - number] = max(judged.paid[lane - number], judged.paid[lane])
     for lane in range(lanes):
-        judged.paid[lane] = judged.paid[lane - lane % tables.world[0].robots]
+        judged.paid[lane] = judged.paid[lane - lane % len(tables.robots)]
 
 
 @unit_where(lambda tables: (tables.ends["is_end"] == 0).any())

@@ -79,7 +79,7 @@ def drive(tables: Tables, world: WorldState, i: int, lane: int) -> None:
     """
     loose, dt = tables.loose[i], tables.world[0].dt
     x, y = next_place_of(tables, world, i, lane)
-    dx, dy = wanted_way(world, tables.world[0].robots, loose, x, y, lane)
+    dx, dy = wanted_way(world, len(tables.robots), loose, x, y, lane)
     slower, mass = world.numbers[loose.slower, lane], mass_of(tables, world, i, lane)
     vx, vy, _ = drift_of(world.loose, i, lane)
     along, across = (dx / dt / slower - vx) * mass / dt, (dy / dt / slower - vy) * mass / dt

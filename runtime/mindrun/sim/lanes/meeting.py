@@ -92,7 +92,7 @@ def floor(number):
 
 KEY_RANGE = 1 << 26
 CORNER_HASH, NO_HASH = np.uint64(3344921057), np.uint64(0)  # the only contact of a circle has none
-OF_MOVERS = unit_where(lambda tables: len(tables.loose) > 0 or len(tables.mates) > 0)
+OF_MOVERS = unit_where(lambda tables: len(tables.loose) > 0 or len(tables.robots) > 1)
 OF_QUADRANGLES = unit_where(lambda tables: not tables.world[0]["is_round"] or not tables.loose["is_round"].all())
 
 
@@ -253,7 +253,7 @@ def take_pair(contact, a, b, key, found, nx, ny, lane):
     if k == space.pairs:
         space.pairs += 1
         pair.key, pair.used, pair.count = key, -1, 0
-        pair.thing, pair.its_thing = in_claw(contact, a, lane), in_claw(contact, b, lane)
+        pair.thing, pair.its_thing = thing_of(contact, a, lane), thing_of(contact, b, lane)
     swap(order, space.touching, k)
     space.touching += 1
     pair.is_first = 0 if pair.used == space.steps - 1 else 1
@@ -265,7 +265,7 @@ def take_pair(contact, a, b, key, found, nx, ny, lane):
     return i
 
 
-def in_claw(contact, a, lane):
+def thing_of(contact, a, lane):
     """The thing that solid `a` is in a claw, or −1."""
     solid = contact.solids[lane, a]
     return -1 if solid.body == a else contact.space[lane + solid.robot].in_claw

@@ -14,7 +14,7 @@ from mindrun.sim.state import WorldState
 from mindrun.sim.units import unit, unit_where
 
 MAX_TRIES = 1000
-OF_SEVERAL = unit_where(lambda tables: len(tables.mates) > 0)  # robots in one world
+OF_SEVERAL = unit_where(lambda tables: len(tables.robots) > 1)  # robots in one world
 ENDLESS_UNITS = 1e300  # half the side of what is no arena is infinite, above this
 
 
@@ -37,8 +37,10 @@ def draw(tables: Tables, world: WorldState, lane: int) -> None:
             x, y = place_for(tables, world, i, False, lane)
             put_thing(world.things, i, x, y, lane)
     start(tables, world, lane)
-    if len(tables.mates) > 0:
+    if len(tables.robots) > 1:
         start_mates(tables, world, lane)
+    elif tables.robots[0].thing >= 0:  # nobody is there whom it could be a thing to
+        put_thing(world.things, tables.robots[0].thing, np.nan, np.nan, lane)
     for i in range(len(tables.things)):
         if tables.things[i].is_fixed and tables.things[i].kind != OTHER_ROBOT:
             appear(tables, world, i, lane)
@@ -208,17 +210,18 @@ def start_anywhere(tables, world, lane):
 def start_mates(tables: Tables, world: WorldState, home: int) -> None:
     """Put the other robots of a world where they begin, one after the other, each drawn by itself.
 
-    In its own lane each has a copy of the world so far, with the robots before it: the first stands in its own place.
+    In its own lane each has a copy of the world so far, with the robots before it.
     """
-    constants, things = tables.world[0], world.things
-    for number in range(1, constants.robots):
-        lane, mate = home + number, tables.mates[number - 1].thing
+    constants, things, first = tables.world[0], world.things, tables.robots[0].thing
+    if first >= 0:
+        put_thing(things, first, world.body[X, home], world.body[Y, home], home)
+        resize_thing(things, first, 2 * constants.radius, home)
+    for number in range(1, len(tables.robots)):
+        lane, mate = home + number, tables.robots[number].thing
         for column in range(world.boxes.shape[1]):
             world.boxes[lane, column] = world.boxes[home, column]
         for row in range(things.shape[0]):
             things[row, lane] = things[row, home]
-        put_thing(things, mate, world.body[X, home], world.body[Y, home], lane)
-        resize_thing(things, mate, 2 * constants.radius, lane)
         start_mate(tables, world, mate, home, lane)
         put_thing(things, mate, world.body[X, lane], world.body[Y, lane], home)
         resize_thing(things, mate, 2 * constants.radius, home)
@@ -358,7 +361,7 @@ def vanish(tables, world, i, lane):
 
 def forget(tables, world, i, home):
     """Let thing i go, and clear the bits of its being reached and delivered, by any robot of a world."""
-    for lane in range(home, home + tables.world[0].robots):
+    for lane in range(home, home + len(tables.robots)):
         world.held[lane] = -1 if world.held[lane] == i else world.held[lane]
         world.reached[i, lane], world.delivered[i, lane] = 0, 0
 
@@ -373,8 +376,10 @@ def clear_of_all(tables, world, x, y, margin, lane):
         its_x, its_y = place_of(world.things, tables.loose[i].thing, lane)
         if thing.is_fixed and abs(its_x - x) < gap and abs(its_y - y) < gap:
             return False
-    for i in range(len(tables.mates)):
-        its_x, its_y = place_of(world.things, tables.mates[i].thing, lane)
+    for i in range(len(tables.robots) if len(tables.robots) > 1 else 0):
+        if tables.robots[i].thing < 0:
+            continue
+        its_x, its_y = place_of(world.things, tables.robots[i].thing, lane)
         gap = tables.world[0].radius + margin
         if abs(its_x - x) < gap and abs(its_y - y) < gap:
             return False

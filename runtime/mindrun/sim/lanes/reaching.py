@@ -28,7 +28,7 @@ def meet(tables, world, lanes):
                 x, y = middle_of(body, lane)
                 begun += note(world.reached, i, lane, world.reached[i, lane], inside(things, i, x, y, lane))
         if thing.is_delivered:
-            robots = tables.world[0].robots
+            robots = len(tables.robots)
             for home in range(0, lanes, robots):
                 if thing.settles and world.still[thing.loose, home] >= SETTLED_TICKS:
                     continue  # neither it nor any zone has moved since it was looked at
@@ -142,9 +142,9 @@ def become(tables, world, lanes):
         thing = tables.things[i]
         if thing.reached == STAYS and thing.delivered == STAYS:
             continue
-        for home in range(0, lanes, tables.world[0].robots):
+        for home in range(0, lanes, len(tables.robots)):
             outcome = STAYS
-            for lane in range(home, home + tables.world[0].robots):
+            for lane in range(home, home + len(tables.robots)):
                 outcome = max(outcome, thing.reached if world.reached[i, lane] == REACH_BEGUN else STAYS)
                 outcome = max(outcome, thing.delivered if world.delivered[i, lane] == REACH_BEGUN else STAYS)
             if outcome == MOVES:

@@ -10,7 +10,7 @@ from mindrun.sim.codes import Tables
 from mindrun.sim.lanes.judge import patch_of
 from mindrun.sim.lanes.placement import OF_SEVERAL, any_of, draw, vanish
 from mindrun.sim.lanes.reaching import begin_inside
-from mindrun.sim.lanes.sharing import share_world
+from mindrun.sim.lanes.sharing import is_paid, share_world
 from mindrun.sim.lanes.solid import is_lost, remove_box
 from mindrun.sim.lanes.think import run_program
 from mindrun.sim.parameter_rows import computed
@@ -25,7 +25,7 @@ MEASURED_ASIDE = np.uint64(0xD1B54A32D192ED03)  # what no skill reads draws from
 @unit
 def fill(tables: Tables, state: State, jobs: Jobs, lanes: int) -> None:
     """Begin as many jobs as there are lanes for: each has one for every robot of its world."""
-    robots = tables.world[0].robots
+    robots = len(tables.robots)
     for home in range(0, lanes, robots):
         if not begin_job(tables, state, jobs, home):
             break
@@ -35,7 +35,7 @@ def fill(tables: Tables, state: State, jobs: Jobs, lanes: int) -> None:
 @unit
 def end(tables: Tables, state: State, jobs: Jobs, home: int) -> None:
     """Write the run of a world down where it is over, and begin the next one, or move the last world to its place."""
-    run, robots = state.run, tables.world[0].robots
+    run, robots = state.run, len(tables.robots)
     for lane in range(home, home + robots):
         if is_lost(state.world.body, lane):
             run.faults[lane] += 1
@@ -56,7 +56,7 @@ def begin_job(tables: Tables, state: State, jobs: Jobs, home: int) -> int:
     if job >= len(jobs.genome):
         return False
     jobs.next[0] = job + 1
-    for number in range(tables.world[0].robots):
+    for number in range(len(tables.robots)):
         world.seed[home + number] = jobs.seeds[jobs.seed[job]]
         world.random[home + number] = of_robot(jobs.seeds[jobs.seed[job]], number)
     draw_numbers(tables, world, world.random[home], home)
@@ -67,16 +67,17 @@ def begin_job(tables: Tables, state: State, jobs: Jobs, home: int) -> int:
     set_numbers(tables, world, home)
     if len(tables.presences) > 0:
         leave_out(tables, state, home)
-    if len(tables.mates) > 0:
+    if len(tables.robots) > 1:
         copy_world(tables, world, home)
     genome = jobs.genomes[jobs.genome[job]]
-    for lane in range(home, home + tables.world[0].robots):
+    for lane in range(home, home + len(tables.robots)):
         state.run.job[lane] = job
         for i in range(len(genome)):
             mind.genome[i, lane] = genome[i]
         reset(tables, state, lane)
-    if len(tables.mates) > 0:
+    if len(tables.robots) > 1:
         share_world(tables, world, home)
+        world.said[:, home : home + len(tables.robots)] = ZERO
     return True
 
 
@@ -88,7 +89,7 @@ def of_robot(seed, number):
 @OF_SEVERAL
 def copy_world(tables: Tables, world: WorldState, home: int) -> None:
     """Give the other robots of a world its boxes and its numbers, and generators of their own."""
-    for lane in range(home + 1, home + tables.world[0].robots):
+    for lane in range(home + 1, home + len(tables.robots)):
         copy_row(world.boxes, home, lane)
         copy_lane(world.numbers, home, lane)
         copy_lane(world.things, home, lane)
@@ -202,19 +203,19 @@ def finish(tables, state, jobs, home):
 
     What is common to all of them has happened once.
     """
-    judge, run, robots = state.judge, state.run, tables.world[0].robots
+    judge, run, robots = state.judge, state.run, len(tables.robots)
     job = run.job[home]
-    for i in range(len(tables.rewards)):
-        paid = 0.0
-        for lane in range(home, home + robots):
-            paid += judge.lines[i, lane]
-        jobs.lines[job, i] = paid / robots
-    jobs.counts[job, : len(tables.events)], jobs.faults[job] = 0, 0
-    for lane in range(home, home + robots):
+    jobs.lines[job, : len(tables.rewards)], jobs.counts[job, : len(tables.events)], jobs.faults[job] = 0.0, 0, 0
+    for number in range(robots):
+        lane = home + number
+        for i in range(len(tables.rewards) if is_paid(tables, number) else 0):
+            jobs.lines[job, i] += judge.lines[i, lane]
         for i in range(len(tables.events)):
             jobs.counts[job, i] += judge.counts[i, lane] if lane == home or not tables.events[i].is_common else 0
         jobs.faults[job] += run.faults[lane]
         run.job[lane] = -1
+    for i in range(len(tables.rewards) if robots > 1 else 0):
+        jobs.lines[job, i] /= tables.world[0].paid
     jobs.ticks[job], jobs.ended[job], jobs.met[job] = state.world.tick[home], run.ended[home], run.met[home]
 
 
@@ -270,5 +271,5 @@ def copy_row(columns, source, target):
 def begin_again(tables: Tables, state: State, jobs: Jobs, lane: int) -> None:
     """End the run of a world, and begin there the job with the number of the world; its first lane is given."""
     finish(tables, state, jobs, lane)
-    jobs.next[0] = lane // tables.world[0].robots
+    jobs.next[0] = lane // len(tables.robots)
     begin_job(tables, state, jobs, lane)

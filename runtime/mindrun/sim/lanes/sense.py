@@ -26,7 +26,7 @@ def sense(tables: Tables, state: State, lanes: int, clock: int) -> None:
         look(tables, world, sight, lanes)
         if len(tables.loose) > 0:
             look_at_loose(tables, world, sight, 0, len(tables.ray_row), lanes)
-        if len(tables.mates) > 0:
+        if len(tables.robots) > 1:
             look_at_robots(tables, world, sight, 0, len(tables.ray_row), lanes)
     sight.nearest_of[0] = -1
     for i in range(len(tables.sensors)):
@@ -53,7 +53,7 @@ def face(tables: Tables, world: WorldState, sight: SightState, i: int, is_turned
         cast(tables, sight, first, last, lanes)
         if len(tables.loose) > 0:
             look_at_loose(tables, world, sight, first, last, lanes)
-        if len(tables.mates) > 0:
+        if len(tables.robots) > 1:
             look_at_robots(tables, world, sight, first, last, lanes)
 
 
@@ -196,12 +196,14 @@ def look_at_loose(tables: Tables, world: WorldState, sight: SightState, first: i
                 meet_box(rows, frame, cosine, sine, out, lanes)
 
 
-@unit_where(lambda tables: len(tables.mates) > 0 and tables.world[0]["rays"] > 0)
+@unit_where(lambda tables: len(tables.robots) > 1 and tables.world[0]["rays"] > 0)
 def look_at_robots(tables: Tables, world: WorldState, sight: SightState, first: int, last: int, lanes: int) -> None:
     """Shorten each of some rays that meets another robot, but for one of those that its own sensor looks for."""
     rows, frame, body = sight.sight, sight.frame, world.body
-    for i in range(len(tables.mates)):
-        thing = tables.mates[i].thing
+    for i in range(len(tables.robots)):
+        thing = tables.robots[i].thing
+        if thing < 0:
+            continue
         for lane in range(lanes):
             x, y = place_of(world.things, thing, lane)
             frame[LOOSE_COSINE, lane], frame[LOOSE_SINE, lane] = ONE, ZERO

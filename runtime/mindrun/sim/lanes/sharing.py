@@ -3,7 +3,7 @@
 import numpy as np
 
 from mindrun.numbers.arithmetic import *
-from mindrun.sim.codes import PERSISTENCE_TICKS, Tables
+from mindrun.sim.codes import PERSISTENCE_TICKS, SIGNAL, Tables
 from mindrun.sim.lanes.placement import OF_SEVERAL
 from mindrun.sim.lanes.solid import reach_of, within
 from mindrun.sim.state import ContactState, WorldState
@@ -12,13 +12,18 @@ CONTACT_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here
 CONTACT_TICKS = PERSISTENCE_TICKS + 2  # for which Chipmunk goes on with a world in which something could have touched
 
 
+def is_paid(tables, number):
+    """True if what happens to the robot with a number counts."""
+    return tables.robots[number].paid == 1
+
+
 @OF_SEVERAL
 def join(tables: Tables, world: WorldState, contact: ContactState, lanes: int) -> None:
     """Let Chipmunk make the tick of all robots of a world where it makes that of any, or two of them could touch.
 
     Where one leaves all places, all of them fly.
     """
-    near, robots, body = contact.near, tables.world[0].robots, world.body
+    near, robots, body = contact.near, len(tables.robots), world.body
     for home in range(0, lanes, robots):
         most, is_swift, are_there = 0, 0, True
         for lane in range(home, home + robots):
@@ -38,23 +43,27 @@ def join(tables: Tables, world: WorldState, contact: ContactState, lanes: int) -
 @OF_SEVERAL
 def share(tables: Tables, world: WorldState, lanes: int) -> None:
     """Let the robots of each world have the same things, each but what others hold, and each other among them."""
-    for home in range(0, lanes, tables.world[0].robots):
+    for home in range(0, lanes, len(tables.robots)):
         share_world(tables, world, home)
 
 
 def share_world(tables, world, home):
     """Let the robots of a world have the same things, each but what others hold, and each other among them."""
-    end, held = home + tables.world[0].robots, world.held
+    end, held = home + len(tables.robots), world.held
     for lane in range(home + 1, end):
         share_things(tables, world, home, lane)
     for lane in range(home, end):
         for other in range(home, end if held[lane] >= 0 else home):
             if other != lane:
                 put_thing(world.things, held[lane], np.nan, np.nan, other)
-    for number in range(1, end - home):
-        for lane in range(home, end):
-            x, y = middle_of(world.body, home if lane == home + number else home + number)
-            put_thing(world.things, tables.mates[number - 1].thing, x, y, lane)
+    for number in range(end - home):
+        (x, y), thing = middle_of(world.body, home + number), tables.robots[number].thing
+        for lane in range(home, end if thing >= 0 else home):
+            is_itself = lane == home + number
+            put_thing(world.things, thing, np.nan if is_itself else x, np.nan if is_itself else y, lane)
+            for i in range(len(tables.actuators)):
+                if tables.actuators[i].kind == SIGNAL:
+                    world.said[number, lane] = world.acting[i, home + number]
 
 
 def share_things(tables, world, home, lane):

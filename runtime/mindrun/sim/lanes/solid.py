@@ -23,7 +23,7 @@ DEEPEST_SHARE = 0.5  # of the smaller's half side: so deep in one another come t
 
 def first_loose(tables):
     """The number of the first loose solid."""
-    return ROBOT + ROBOT_SOLIDS * tables.world[0].robots
+    return ROBOT + ROBOT_SOLIDS * len(tables.robots)
 
 
 def own_solid(robot):
@@ -177,7 +177,7 @@ def top_speed(motion, arm):
 def stride(tables: Tables, world: WorldState, lane: int) -> float:
     """The seconds for which a world may go on at once; infinite where nothing in it is swift."""
     longest = np.inf
-    for number in range(tables.world[0].robots):
+    for number in range(len(tables.robots)):
         longest = min(longest, stride_of_robot(tables, world, number, lane))
     for i in range(len(tables.loose)):
         longest = min(longest, stride_of(tables, world, i, lane))
@@ -218,7 +218,7 @@ def stride_of(tables, world, i, lane):
 def room_beside(tables, world, x, y, extent, but, lane):
     """Half of the gap between something of radius `extent` at a point and the nearest robot but number `but`."""
     room = np.inf
-    for number in range(tables.world[0].robots):
+    for number in range(len(tables.robots)):
         if number != but:
             its_x, its_y = middle_of(world.body, lane + number)
             far = max(abs(its_x - x), abs(its_y - y)) - reach_of(tables, world, lane + number)
@@ -247,7 +247,7 @@ def room_around(tables, world, x, y, extent, but, lane):
 def note_begin(tables, world, solids, lane):
     """Note where everything that moves is as a tick begins, and half of its least side."""
     constants = tables.world[0]
-    for number in range(constants.robots):
+    for number in range(len(tables.robots)):
         a, own_lane = own_solid(number), lane + number
         solids[a].begin.x, solids[a].begin.y = middle_of(world.body, own_lane)
         solids[a].half = min(constants.front, constants.side)
@@ -265,7 +265,7 @@ def note_thing(world, solid, thing, lane):
 
 def note_after(tables, world, solids, lane):
     """Note where everything that moves is after a step; NaN where nothing is held."""
-    for number in range(tables.world[0].robots):
+    for number in range(len(tables.robots)):
         own_lane, robot, held = lane + number, solids[own_solid(number)].after, solids[own_solid(number) + 1].after
         (robot.x, robot.y), held.x, held.y = middle_of(world.body, own_lane), np.nan, np.nan
         if world.held[own_lane] >= 0:
@@ -282,7 +282,7 @@ def note_before(tables, world, solids, lane):
     note_after(tables, world, solids, lane)
     for a in range(ROBOT, len(solids)):
         solids[a].before.x, solids[a].before.y = solids[a].after.x, solids[a].after.y
-    for number in range(tables.world[0].robots):
+    for number in range(len(tables.robots)):
         solids[own_solid(number)].before_angle = world.body[ANGLE, lane + number]
     for i in range(len(tables.loose)):
         solids[first_loose(tables) + i].before_angle = turn_of(world.loose, i, lane)

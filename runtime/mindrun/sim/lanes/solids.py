@@ -30,7 +30,7 @@ def open_space(tables, world, contact, lane):
     for i in range(len(tables.loose)):
         solids[first_loose(tables) + i].turn = tables.loose[i].number % tables.world[0].hash_size
     solids[FIXED].friction = 1.0
-    for number in range(tables.world[0].robots):
+    for number in range(len(tables.robots)):
         make_robot(tables, world, solids, number, lane + number)
 
 

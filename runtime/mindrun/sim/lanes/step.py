@@ -6,7 +6,7 @@ Walkers touch nothing: they are plain arithmetic, too.
 import numpy as np
 
 from mindrun.numbers.arithmetic import *
-from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PUSH, STEERING, TORQUE, Tables
+from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, ITEM, PUSH, SLOPE, STEERING, TORQUE, Tables
 from mindrun.sim.lanes.act import carry
 from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_down, wanted_way
 from mindrun.sim.lanes.placement import at_drawn
@@ -23,16 +23,16 @@ def step(tables: Tables, state: State, lanes: int) -> None:
     """Damp, push and move the robots and the loose things; then headings, held items and walkers follow."""
     world, contact, constants = state.world, state.contact, tables.world[0]
     thrust(tables, world, lanes)
-    for lane in range(0, lanes if len(tables.loose) > 0 else 0, constants.robots):
+    for lane in range(0, lanes if len(tables.loose) > 0 else 0, len(tables.robots)):
         if world.restless[lane] > 0:
             slow_down(tables, world, contact, lane)
     find_near(tables, world, state.sight, contact, lanes)
-    if len(tables.mates) > 0:
+    if len(tables.robots) > 1:
         join(tables, world, contact, lanes)
     fly(world, contact.near, constants, lanes)
     for lane in range(lanes):
         contact.touching[lane] = contact.touching[lane] << 1 & 3  # bit 0 this tick, bit 1 the tick before
-    for lane in range(0, lanes, constants.robots):
+    for lane in range(0, lanes, len(tables.robots)):
         if contact.near[lane] > 0:
             make_tick(tables, world, contact, lane)
         elif world.restless[lane] > 0:
@@ -40,9 +40,11 @@ def step(tables: Tables, state: State, lanes: int) -> None:
     for lane in range(lanes):
         world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(world.body[ANGLE, lane])
     carry(world, tables.things, lanes)
+    if constants.slopes > 0:
+        slide_down(tables, world, lanes)
     if len(tables.walkers) > 0:
         walk(tables, world, lanes)
-    if len(tables.mates) > 0:
+    if len(tables.robots) > 1:
         share(tables, world, lanes)
 
 
@@ -65,8 +67,37 @@ def thrust(tables, world, lanes):
     for lane in range(lanes if is_aside else 0):
         push[FORCE_X, lane] -= push[FORCE_ASIDE, lane] * heading[SINE, lane]
         push[FORCE_Y, lane] += push[FORCE_ASIDE, lane] * heading[COSINE, lane]
+    if constants.slopes > 0:
+        draw_down(tables, world, lanes)
     if constants.axles > 0.0:
         roll(tables, world, lanes)
+
+
+OF_SLOPES = unit_where(lambda tables: (tables.things["kind"] == SLOPE).any())
+
+
+@OF_SLOPES
+def draw_down(tables: Tables, world: WorldState, lanes: int) -> None:
+    """Add the force with which slopes draw down robots whose middle is on them to `push`."""
+    for i in range(len(tables.things)):
+        for lane in range(lanes if tables.things[i].kind == SLOPE else 0):
+            x, y = middle_of(world.body, lane)
+            if inside(world.things, i, x, y, lane):
+                world.push[FORCE_X, lane] += tables.things[i].pull_x
+                world.push[FORCE_Y, lane] += tables.things[i].pull_y
+
+
+@OF_SLOPES
+def slide_down(tables: Tables, world: WorldState, lanes: int) -> None:
+    """Let items that nobody holds slide down the slopes on which they lie: the first of these, in their order."""
+    for k in range(len(tables.things)):
+        for home in range(0, lanes if tables.things[k].kind == ITEM else 0, len(tables.robots)):
+            x, y = place_of(world.things, k, home)
+            slides = world.held[home] != k
+            for i in range(len(tables.things)):
+                if slides and tables.things[i].kind == SLOPE and inside(world.things, i, x, y, home):
+                    put_thing(world.things, k, x + tables.things[i].slide_x, y + tables.things[i].slide_y, home)
+                    slides = False
 
 
 def drive(commands, actuator, strength, kept, push, lanes):
@@ -179,7 +210,7 @@ def approach(box, body, dt, gap, lanes):
 def walk(tables: Tables, world: WorldState, lanes: int) -> None:
     """Let every walker that has not vanished take its step."""
     for i in range(len(tables.walkers)):
-        for lane in range(0, lanes, tables.world[0].robots):
+        for lane in range(0, lanes, len(tables.robots)):
             x, y = place_of(world.things, tables.walkers[i].thing, lane)
             if np.isnan(x):
                 continue
@@ -192,7 +223,7 @@ def walk(tables: Tables, world: WorldState, lanes: int) -> None:
 def chase(tables, world, i, x, y, lane):
     """Step straight towards the nearest that a walker seeks, or away from what it flees; True if it could."""
     walker = tables.walkers[i]
-    dx, dy = wanted_way(world, tables.world[0].robots, walker, x, y, lane)
+    dx, dy = wanted_way(world, len(tables.robots), walker, x, y, lane)
     if np.isnan(dx) or (dx == 0.0 and dy == 0.0):
         return not np.isnan(dx)
     step, half = world.numbers[walker.step, lane], size_of(world.things, walker.thing, lane) / 2

@@ -137,11 +137,11 @@ def make_tick(tables: Tables, world: WorldState, contact: ContactState, lane: in
         most = stride(tables, world, lane) if is_swift else dt
         is_last = most >= left or number == MOST_STRIDES - 1
         seconds = min(most, left) if is_last else min(most, left / 2)
-        if is_swift and not all_glide(world.body, tables.world[0].robots, seconds, lane):
+        if is_swift and not all_glide(world.body, len(tables.robots), seconds, lane):
             break
         note_before(tables, world, contact.solids[lane], lane)
         touching += make_step(tables, world, contact, seconds, dt / seconds if is_last else 0.0, lane)
-        could_pass = touching > 0 or len(tables.loose) > 0 or len(tables.mates) > 0
+        could_pass = touching > 0 or len(tables.loose) > 0 or len(tables.robots) > 1
         if could_pass:
             hold_back(tables, world, contact.solids[lane], lane)
         contact.last[lane] = seconds if could_pass else np.inf
@@ -171,7 +171,7 @@ def glides(body, seconds, lane):
 
 def make_step(tables, world, contact, seconds, share, lane):
     """Move a world on by some seconds with a share of its forces; return how often robots touch what never moves."""
-    space, solids, robots = contact.space[lane], contact.solids[lane], tables.world[0].robots
+    space, solids, robots = contact.space[lane], contact.solids[lane], len(tables.robots)
     if space.seconds == 0.0 or seconds > contact.last[lane]:
         open_space(tables, world, contact, lane)  # what is remembered are impulses, of which more would act
     space.steps += 1
@@ -185,7 +185,7 @@ def make_step(tables, world, contact, seconds, share, lane):
     if len(tables.loose) > 0:
         move_loose(tables, world, contact, seconds, share, lane)
     gather(world, contact, lane)
-    if len(tables.loose) > 0 or len(tables.mates) > 0:
+    if len(tables.loose) > 0 or len(tables.robots) > 1:
         touch_movers(tables, world, contact, lane)
     touch_fixed(tables, world, contact, lane)
     let_go(tables, world, contact, lane)

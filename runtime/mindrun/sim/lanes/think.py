@@ -16,11 +16,22 @@ def begin(tables, mind, lanes):
     mind.influence[:, :lanes] = ZERO
     mind.command_sums[:, :lanes] = ZERO
     mind.influence_sums[:, :lanes] = ZERO
-    mind.influence[tables.world[0].master, :lanes] = ONE
+    robots = len(tables.robots)
     if len(mind.scoped) > 1:
         mind.scoped[:, :lanes] = ZERO
-        for row in range(tables.world[0].master, len(mind.scoped), len(mind.influence)):
-            mind.scoped[row, :lanes] = ONE
+    for number in range(robots):
+        master = tables.robots[number].master
+        give_all(mind.influence[master], number, robots, lanes)
+        for row in range(master, len(mind.scoped) if len(mind.scoped) > 1 else 0, len(mind.influence)):
+            give_all(mind.scoped[row], number, robots, lanes)
+
+
+def give_all(influence, first, step, lanes):
+    """Let influence be 1 in each `step`th lane from the first one on."""
+    if step == 1:
+        influence[:lanes] = ONE
+    for lane in range(first, lanes if step > 1 else 0, step):
+        influence[lane] = ONE
 
 
 @unit
