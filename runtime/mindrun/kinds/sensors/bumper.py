@@ -61,9 +61,10 @@ class Bumper(Physical):
             press(t, s, sensor, 0.0, -half_y - y, True, p)
             for i in range(len(t.loose)):
                 lean(t, s, sensor, i, p)
-            for i in range(len(t.robots)):
-                if t.robots[i].thing >= 0:
-                    lean_disc(t, s, sensor, t.robots[i].thing, p)
+            for number in range(len(t.robots)):
+                other = p - p % len(t.robots) + number
+                if other != p:
+                    lean_robot(t, s, sensor, other, p)
 
 
 def lean(t: Any, s: Any, sensor: Any, i: Any, p: Any) -> None:
@@ -71,23 +72,36 @@ def lean(t: Any, s: Any, sensor: Any, i: Any, p: Any) -> None:
     x, y = place_of(s.things, t.loose[i].thing, p)
     dx, dy = x - s.body[X, p], y - s.body[Y, p]
     half = size_of(s.things, t.loose[i].thing, p) / 2
+    if np.isnan(dx):
+        return  # it has vanished
     if t.loose[i].is_round:
-        lean_disc(t, s, sensor, t.loose[i].thing, p)
-    elif not np.isnan(dx):  # it has not vanished
+        lean_disc(t, s, sensor, dx, dy, half, p)
+    else:
         sn, c = sine_cosine(s.loose[LOOSE_ROWS * i + TURN, p])
-        along, across = beyond(c * dx + sn * dy, half), beyond(c * dy - sn * dx, half)
-        is_flat = along == 0.0 or across == 0.0
-        press(t, s, sensor, c * along - sn * across, sn * along + c * across, is_flat, p)
+        lean_box(t, s, sensor, dx, dy, half, half, c, sn, p)
 
 
-def lean_disc(t: Any, s: Any, sensor: Any, thing: Any, p: Any) -> None:
-    """Press the switches of lane p that a thing touches which is a disc."""
-    x, y = place_of(s.things, thing, p)
-    dx, dy, half = x - s.body[X, p], y - s.body[Y, p], size_of(s.things, thing, p) / 2
+def lean_robot(t: Any, s: Any, sensor: Any, other: Any, p: Any) -> None:
+    """Press the switches of lane p that the robot of another lane touches."""
+    dx, dy, body = s.body[X, other] - s.body[X, p], s.body[Y, other] - s.body[Y, p], t.world[0]
+    if body.is_round:
+        lean_disc(t, s, sensor, dx, dy, body.radius, p)
+    else:
+        lean_box(t, s, sensor, dx, dy, body.front, body.side, s.heading[COSINE, other], s.heading[SINE, other], p)
+
+
+def lean_disc(t: Any, s: Any, sensor: Any, dx: Any, dy: Any, half: Any, p: Any) -> None:
+    """Press the switches of lane p that a disc touches, whose middle is (dx, dy) from the body's."""
     far = np.sqrt(dx * dx + dy * dy)
     share = 1.0 - half / far if far > half else 0.0
-    if not np.isnan(dx):  # it has not vanished
-        press(t, s, sensor, dx * share, dy * share, False, p)
+    press(t, s, sensor, dx * share, dy * share, False, p)
+
+
+def lean_box(t: Any, s: Any, sensor: Any, dx: Any, dy: Any, half_x: Any, half_y: Any, c: Any, sn: Any, p: Any) -> None:
+    """Press the switches of lane p that a rectangle touches, turned by the angle of that cosine and sine."""
+    along, across = beyond(c * dx + sn * dy, half_x), beyond(c * dy - sn * dx, half_y)
+    is_flat = along == 0.0 or across == 0.0
+    press(t, s, sensor, c * along - sn * across, sn * along + c * across, is_flat, p)
 
 
 def beyond(away: Any, side: Any) -> Any:
