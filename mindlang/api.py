@@ -36,6 +36,7 @@ from mindlang.lock.status import ReadyMind, make_ready
 from mindlang.run.chosen_task import master_of, skill_of, task_of, unknown
 from mindlang.run.outcome import bench_data, over_at_once
 from mindlang.run.recorded_run import record_run
+from mindlang.run.roles import roles_data
 from mindlang.run.setup import RunSetup, run_timed, set_up, train_command, untaught_skills
 from mindlang.run.tables import Column, trace_table
 from mindlang.training.lesson_choice import TrainOptions, lessons_to_teach
@@ -164,6 +165,7 @@ class Mind(ShortRepr):
         """Many runs of a task on layouts that `seed` draws: each mean with its standard error, as `mindc bench --json`.
 
         `count_…` is of the events that the task counts, `score_…` of the rewards; `mind.trace` repeats `best_seed`.
+        Of several robots `roles` says who does what.
 
         >>> found = mind.bench("Collect", runs=20)
         >>> found["runs"], found["count_mean"]
@@ -177,6 +179,7 @@ class Mind(ShortRepr):
         scores, *took = run_timed(rollout, seeds)
         notes = setup.notes(rollout, *over_at_once(setup.task, scores))
         data = bench_data(setup.task, scores, seeds, *took) | {"notes": notes}
+        data |= roles_data(rollout, seeds)
         return {"task": setup.task.name, "master": setup.master, "seed": int(seed)} | data
 
     def train(

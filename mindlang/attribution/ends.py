@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from mindrun.graph.run_scores import Scores
 from mindrun.sim.codes import GOING_ON
+from mindrun.sim.numbering import boxes_by_name
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.task_rows import boxes_by_name
 from mindrun.sim.trace import Touch, last_touch, trace
 from rich.console import Group, RenderableType
 from rich.text import Text

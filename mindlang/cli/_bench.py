@@ -8,6 +8,7 @@ from typing import Any
 
 from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores
+from rich.console import Group
 
 from mindlang.cli import _options as options
 from mindlang.cli import _terminal as terminal
@@ -19,6 +20,7 @@ from mindlang.run.comparison import WHOLE, Benched, compare_minds, credit_of, di
 from mindlang.run.outcome import bench_data, over_at_once
 from mindlang.run.paired_difference import CONFIDENCE_LEVEL
 from mindlang.run.promises import FEW_TICKS, MAX_COUNTED_TICKS, promises_in
+from mindlang.run.roles import roles_data, roles_text
 from mindlang.run.summary import bench_summary, comparison_summary, credit_summary, worlds_summary
 from mindlang.run.tables import Table, csv_parts, joined, runs_table
 from mindlang.run.worlds import World, figure, world_rows, worlds
@@ -78,7 +80,7 @@ class Bench:
         self.session.note(*over_at_once(task, scores))
         found = {"task": task.name, "master": setup.master, "seed": self.seed, **self._by(), **data}
         self._write(lambda: runs_table(task, scores, seeds), f"{len(seeds):,} runs")
-        terminal.print_result(found, lambda: bench_summary(found))
+        terminal.print_result(found, lambda: Group(bench_summary(found), *roles_text(found)))
 
     def compare(self, who: Sequence[Contender]) -> None:
         """Run both on the same layouts, the second on the task of the first, and print what differs."""
@@ -184,7 +186,7 @@ class Bench:
     ) -> tuple[Scores, dict[str, Any]]:
         """The score of each run, and the data of all of them; notes and progress are as in `RunSession.score`.
 
-        Promises are counted over fewer runs where these are some of many, of which `ran` is told.
+        Promises are counted over fewer runs where these are some of many, of which `ran` is told, and roles in none.
         """
         setup, rollout = prepared
         cast = setup.ready.policy, setup.task.name, setup.master, setup.folder
@@ -195,7 +197,8 @@ class Bench:
         data |= {"notes": setup.notes(rollout, *over_at_once(setup.task, scores))}
         with terminal.procedures_talk():
             promises = promises_in(rollout, setup.master, seeds, FEW_TICKS if ran else MAX_COUNTED_TICKS)
-        return scores, data | ({"promises": promises} if promises else {})
+            roles = {} if ran else roles_data(rollout, seeds)
+        return scores, data | ({"promises": promises} if promises else {}) | roles
 
     def _by(self) -> dict[str, int | str]:
         """The workers that make the runs, as data."""

@@ -50,6 +50,9 @@ def command(files: tuple[str, ...], masters: tuple[str, ...], workers: int | Non
     With OTHER, or two masters, both run on the same layouts: how much they differ, with a confidence interval, and what
     may be said of it. It is said of the weights that both have, not of how such minds are taught in general.
 
+    Of a task with several robots, also who does what: the share of ticks in which each skill that the master influences
+    has the most influence on each robot, and how labour is divided by that.
+
     With --worlds, on the same layouts again with one number of the world or the robot changed, in a table with the
     worst first: lengths, forces and their like by a quarter, readings 5 % off or lost, commands 0.1 s late. The share
     is that of what it is as taught.

@@ -6,7 +6,7 @@ from typing import Any
 
 import cv2
 import numpy as np
-from mindrun.sim.task_rows import boxes_by_name
+from mindrun.sim.numbering import boxes_by_name
 from mindrun.terminal.tick_count import ticks as in_words
 from numpy.typing import NDArray
 

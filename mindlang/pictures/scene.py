@@ -17,7 +17,7 @@ from mindrun.kinds.actuators.actuator import ActuatorKind
 from mindrun.kinds.registry import names
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.sensors.sensor import SensorKind
-from mindrun.sim.task_rows import opened_boxes
+from mindrun.sim.numbering import opened_boxes
 from numpy.typing import ArrayLike, NDArray
 
 from mindlang.pictures.canvas import Canvas, Region, Viewport, blank, rectangle_corners, text_width

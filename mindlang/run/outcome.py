@@ -57,7 +57,7 @@ def met_goals(task: Task, scores: Scores) -> list[dict[str, Any]]:
         )
         share = scores.by_line[0, :, i] / points
         met = None if text in preferred else float((share > LEAST_SHARE).mean())
-        found.append({"goal": text, **_spread("", share), "met": met})
+        found.append({"goal": text, **spread("", share), "met": met})
     return found
 
 
@@ -132,14 +132,14 @@ def bench_data(
     numbers = [*range(len(task.ends)), *OTHERWISE, GOING_ON]
     return {
         "runs": len(seeds),
-        **_spread("count_", scores.counts[0] if task.counts else NOTHING),
+        **spread("count_", scores.counts[0] if task.counts else NOTHING),
         "counted": [happened[event] for event in task.counts],
-        "by_event": {happened[event]: _spread("", scores.by_event[0, :, event]) for event in task.counts},
+        "by_event": {happened[event]: spread("", scores.by_event[0, :, event]) for event in task.counts},
         **({"success": _success(succeeded(task, scores)[0].astype(float))} if task.can_succeed else {}),
         **({"goals": goals} if (goals := met_goals(task, scores)) else {}),
         "runtime_mean": float(scores.ticks[0].mean() / task.ticks),
         "ended": {ended_by(task, number) or TIME: ended[number] for number in numbers if ended[number]},
-        **_spread("score_", totals),
+        **spread("score_", totals),
         **{f"{name}_run": None if run is None else run + 1 for name, run in named.items()},
         **{f"{name}_seed": None if run is None else int(seeds[run]) for name, run in named.items()},
         **{
@@ -162,13 +162,14 @@ def _success(runs: NDArray[np.float64]) -> dict[str, float | None]:
     `at_least` and `at_most` are that share with 95 % confidence, None where a standard error says how far it may be
     off, or one run knows neither.
     """
-    spread, unseen = _spread("", runs), unseen_share(len(runs))
-    is_all_or_none = spread["standard_error"] == 0
-    low, high = (1 - unseen, 1.0) if spread["mean"] else (0.0, unseen)
-    return {**spread, "at_least": low if is_all_or_none else None, "at_most": high if is_all_or_none else None}
+    share, unseen = spread("", runs), unseen_share(len(runs))
+    is_all_or_none = share["standard_error"] == 0
+    low, high = (1 - unseen, 1.0) if share["mean"] else (0.0, unseen)
+    return {**share, "at_least": low if is_all_or_none else None, "at_most": high if is_all_or_none else None}
 
 
-def _spread(of: str, values: NDArray[Any]) -> dict[str, float | None]:
+def spread(of: str, values: NDArray[Any]) -> dict[str, float | None]:
+    """The mean of values, their standard deviation and the standard error of the mean, named so; None where unknown."""
     deviation = float(values.std(ddof=1)) if len(values) > 1 and np.isfinite(values).all() else None
     error = None if deviation is None else deviation / sqrt(len(values))
     mean = finite(values.mean()) if len(values) else None

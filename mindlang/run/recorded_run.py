@@ -10,9 +10,9 @@ from mindrun.graph.draws import drawn_numbers
 from mindrun.graph.graph import Graph, Task, Thing
 from mindrun.graph.recording_header import GOES_ON
 from mindrun.graph.skill_sets import movers
+from mindrun.graph.tasks import things_of
 from mindrun.sim.codes import AWAY
 from mindrun.sim.rollout import Rollout, scores_of
-from mindrun.sim.task_rows import things_of
 from mindrun.sim.trace import Trace, joined, trace
 from numpy.typing import NDArray
 

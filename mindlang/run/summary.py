@@ -53,7 +53,9 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
     best_drawn, worst_drawn = (drawn_in_words(found.get(f"{run}_drawn") or {}) for run in ("best", "worst"))
     facts = _facts(
         ("runs", f"{runs} from seed {found['seed']}{error}"),
-        *_counted({event: f"{_mean(spread, '')}   " for event, spread in found["by_event"].items()}),
+        *_counted(
+            {event + _per_robot(found, each): f"{_mean(each, '')}   " for event, each in found["by_event"].items()}
+        ),
         ("success", _share(found["success"]) if "success" in found else ""),
         ("score", _mean(found, "score_")),
         ("run time", f"{found['runtime_mean']:.1%} of the task's ticks"),
@@ -64,6 +66,10 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
         ("faults", _faults(found)),
     )
     return Group(_title(found), facts, *_goals(found), *_promises(found))
+
+
+def _per_robot(found: dict[str, Any], times: Mapping[str, Any]) -> str:
+    return f" ({score(times['mean'] / len(found['roles']['robots']))} per robot)" if "roles" in found else ""
 
 
 def _goals(found: dict[str, Any]) -> Iterator[RenderableType]:

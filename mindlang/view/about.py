@@ -8,9 +8,10 @@ from mindrun.graph.graph import Graph, Skill, Task
 from mindrun.graph.named_readings import named_places, reading_names, servo_reading
 from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import About
+from mindrun.graph.tasks import things_of
 from mindrun.kinds.registry import names
 from mindrun.robot.hand import hand_on
-from mindrun.sim.task_rows import opened_boxes, things_of
+from mindrun.sim.numbering import opened_boxes
 
 from mindlang.pictures.scene import half_sides, thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, code

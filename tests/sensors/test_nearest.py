@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.graph.graph import Reward, Task, Thing
 from mindrun.graph.policy import Policy
+from mindrun.graph.tasks import things_of
 from mindrun.kinds.scenes.scene import Arena
 from mindrun.kinds.sensors.contact import Contact, Held, Inside
 from mindrun.kinds.sensors.nearest import Bearing
@@ -18,8 +19,8 @@ from mindrun.kinds.things.thing import Item, ThingKind, Zone
 from mindrun.kinds.things.wall import Wall
 from mindrun.numbers.arithmetic import DISTANCE, HALF_X, THING_ROWS, nearest
 from mindrun.numbers.quantity import Span
+from mindrun.sim.numbering import boxes_by_name, rows_by_name
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.task_rows import boxes_by_name, rows_by_name, things_of
 from mindrun.sim.trace import trace
 
 from tests.minds import always, mind, rule

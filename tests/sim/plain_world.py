@@ -18,6 +18,7 @@ from mindrun.kinds.sensors.nearest import Bearing
 from mindrun.kinds.sensors.rays import RangeFinder
 from mindrun.kinds.things.loose import Ball, LooseBox
 from mindrun.kinds.things.obstacle import Obstacle
+from mindrun.kinds.things.slope import Slope
 from mindrun.kinds.things.thing import Item, Power, Zone
 from mindrun.numbers.trigonometry import cosine, sine
 
@@ -268,13 +269,16 @@ class PlainWorld:
         self.far = [self.away(place) for place in self.places]
         self.apart = [self.between(measure) for measure in self.task.measures]
         self.trail.append(self.was)
-        state = self.body.step(acting, kept, cosine(self.angle), sine(self.angle), self.held, self.places)
+        drawn = [each.kind for i, each in enumerate(self.things) if self.is_on_slope(i, self.x, self.y)]
+        pull = [(cosine(kind.facing) * kind.pull, sine(kind.facing) * kind.pull) for kind in drawn]
+        state = self.body.step(acting, kept, cosine(self.angle), sine(self.angle), self.held, self.places, pull)
         self.x, self.y, self.angle = state[:3]
         for i, (body, _) in self.body.loose.there.items():
             self.places[i][:2] = body.position
         if self.held >= 0:
             hold = front_of(self.graph.body) + self.body.largest[self.held] / 2
             self.places[self.held][:2] = self.x + cosine(self.angle) * hold, self.y + sine(self.angle) * hold
+        self.slide()
         self.walkers.walk()
         powered = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, Power)]
         if self.runs_down:
@@ -282,6 +286,19 @@ class PlainWorld:
             self.charge += self.cell.charge if charged else -self.cell.drain
             self.charge = min(1.0, max(0.0, self.charge))
         return state
+
+    def is_on_slope(self, i, x, y):
+        """Whether thing i is a slope on which a point is."""
+        return isinstance(self.things[i].kind, Slope) and self.inside(i, x, y)
+
+    def slide(self):
+        """Items that nobody holds slide down the first slope on which they lie."""
+        for k, item in enumerate(self.things):
+            x, y, _ = self.places[k]
+            slopes = [each.kind for i, each in enumerate(self.things) if self.is_on_slope(i, x, y)]
+            if isinstance(item.kind, Item) and k != self.held and slopes:
+                far, facing = slopes[0].slides * self.graph.tick, slopes[0].facing
+                self.places[k][:2] = x + cosine(facing) * far, y + sine(facing) * far
 
     def happened(self):
         """How often each event of the task did."""
@@ -325,7 +342,7 @@ class PlainWorld:
     def is_at(self, k, i):
         """Whether thing k, or the robot, is in a zone, or near enough to anything else."""
         x, y, size = self.places[k] if k >= 0 else (self.x, self.y, 0.0)
-        if isinstance(self.things[i].kind, Zone | Power):
+        if isinstance(self.things[i].kind, Zone | Power | Slope):
             return self.inside(i, x, y)
         dx, dy = x - self.places[i][0], y - self.places[i][1]
         most = self.reach() + size / 2 + self.places[i][2] / 2
@@ -356,7 +373,7 @@ class PlainWorld:
         """What begins to be in reach, and what to be delivered; `changed` is what moves or vanishes by it."""
         kinds = [thing.kind for thing in self.things]
         zones = [i for i, kind in enumerate(kinds) if isinstance(kind, Zone)]
-        areas = {i for i, kind in enumerate(kinds) if isinstance(kind, Zone | Power)}
+        areas = {i for i, kind in enumerate(kinds) if isinstance(kind, Zone | Power | Slope)}
         reached = {i for i in areas if self.inside(i, self.x, self.y)}
         reached |= {i for i in range(len(kinds)) if i not in areas and self.in_claw(i, self.reach())}
         carried = {self.held, *self.delivered, *self.body.loose.there} - {-1}
@@ -594,7 +611,7 @@ class PlainBody:
         self.space.add(shape)
         return shape
 
-    def step(self, commands, kept, c, s, held, places):
+    def step(self, commands, kept, c, s, held, places, pull):
         """x, y, angle and their velocities a tick later."""
         for i, item in self.items.items():
             item.sensor = i != held
@@ -606,7 +623,10 @@ class PlainBody:
         body.angular_velocity *= self.angular
         if isinstance(self.kind, Car):
             self.roll(turned, c, s)
-        body.force, body.torque = (ahead * c - aside * s, ahead * s + aside * c), torque
+        x, y = (ahead * c - aside * s, ahead * s + aside * c)
+        for pull_x, pull_y in pull:
+            x, y = x + pull_x, y + pull_y
+        body.force, body.torque = (x, y), torque
         self.loose.damp()
         self.loose.drive()
         self.stride(held, places)

@@ -8,10 +8,10 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.graph.policy import Policy
+from mindrun.graph.tasks import things_of
 from mindrun.kinds.registry import phrase
 from mindrun.numbers.expression import evaluate
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.task_rows import things_of
 from mindrun.sim.trace import trace
 
 from mindlang.compiler.compile import compile_source

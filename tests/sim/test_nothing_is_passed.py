@@ -10,9 +10,9 @@ import pytest
 from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Start, Thing
 from mindrun.graph.policy import Policy
+from mindrun.graph.tasks import things_of
 from mindrun.kinds.things.map import Map
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.task_rows import things_of
 from mindrun.sim.trace import trace
 from numpy.typing import NDArray
 

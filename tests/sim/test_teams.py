@@ -7,8 +7,8 @@ import pymunk
 import pytest
 from mindrun.graph.policy import Policy
 from mindrun.numbers.trigonometry import cosine, sine
+from mindrun.sim.numbering import rows_by_name
 from mindrun.sim.rollout import Rollout, Tile
-from mindrun.sim.task_rows import rows_by_name
 
 from mindlang.physics_check import ROBOT_FRICTION, add, arena, disc, drive
 from tests.draws import first
@@ -113,3 +113,87 @@ def test_who_is_which_robot_changes_nothing_but_names(seed: int) -> None:
             theirs, its = getattr(one.world, name)[..., order], getattr(other.world, name)[..., :4]
             assert np.array_equal(theirs, its), (name, compared)
     assert compared > 50
+
+
+BODY = """tick 1/20 s
+master Go
+body Rover is disc size 2
+actuator left_wheel is wheel side left neutral 0.5
+actuator right_wheel is wheel side right neutral 0.5
+actuator claw is gripper reach 1.5 neutral 0
+actuator call is signal neutral 0
+sensor near is contact of gem
+sensor has is held of gem
+sensor away is distance of gem range 100
+sensor mate_away is distance of mate range 100
+sensor ahead is range_finder range 20
+sensor heard is signal of mate
+"""
+
+
+def said(skills: str, task: str, ticks: int = 40) -> tuple[Rollout, list[dict[str, float]]]:
+    """The run of a world of rules, and of each robot what it has been paid for each line."""
+    text = f"{BODY}{skills}task Go in plain\n{task}  lasts {ticks} ticks\n"
+    rollout = Rollout(Policy(compile_text(text), {}), "Go", "Go")
+    tile, jobs = rollout.tile(1), rollout.jobs(np.zeros((1, 0), np.float32), np.array([1], np.uint64))
+    rollout.fill(tile, jobs)
+    rollout.advance(tile, jobs, ticks)
+    names = [reward.text for reward in rollout.task.rewards]
+    lines = tile.state.judge.lines[: len(names)].T.tolist()
+    robots = [dict(zip(names, each, strict=True)) for each in lines[: len(rollout.tables.robots)]]
+    scores = rollout.score(np.zeros((1, 0), np.float32), [1])
+    assert scores.by_line[0, 0].tolist() == [float(np.mean([each[name] for each in robots])) for name in names]
+    return rollout, robots
+
+
+def test_robots_see_and_hear_each_other_a_tick_late() -> None:
+    lines = "rewards mate_away per tick", "rewards ahead per tick", "rewards heard per tick"
+    task = "  starts at 0 0 facing 0 deg\n  contains mate is robot at 10 0 under Say\n  contains gem is item at 50 0\n"
+    _, (first, mate) = said(
+        "skill Go is rule\n  drives call at 0.25\nskill Say is rule\n  drives call at 0.75\n",
+        task + "".join(f"  {line}\n" for line in lines),
+    )
+    away, ahead, heard = (line.removeprefix("rewards ") for line in lines)
+    assert first[f"rewards {away}"] == pytest.approx(40 * 8 / 100)  # from rim to rim
+    assert first[f"rewards {ahead}"] == pytest.approx(40 * 8 / 20)
+    assert first[f"rewards {heard}"] == 39 * 0.75
+    # The first is under another skill, so nobody else is a mate to it; it is seen, where it faces.
+    assert mate == {f"rewards {away}": 40.0, f"rewards {ahead}": 40.0, f"rewards {heard}": 0.0}
+
+
+TAKING = """  starts at 0 0 facing 0 deg
+  contains mate is robot at 0 2.2
+  contains gem is item at 1.6 {y} delivered stays
+  contains home is zone size 10 at 0 0
+  rewards has per tick
+  rewards 1 on delivery of gem
+  rewards 1 on collision with mate
+"""
+CLOSING = "skill Go is rule\n  drives claw at 1\n"
+
+
+@pytest.mark.parametrize(("y", "taker"), [(1.0, 0), (1.1, 0), (1.2, 1)])
+def test_the_nearest_claw_takes_an_item_and_nobody_else_has_it(y: float, taker: int) -> None:
+    _, robots = said(CLOSING, TAKING.format(y=y))
+    assert [each["rewards has per tick"] for each in robots] == [39.0 * (taker == 0), 39.0 * (taker == 1)]
+    assert [each["rewards 1 on delivery of gem"] for each in robots] == [taker == 0, taker == 1]
+
+
+def test_what_is_let_go_is_everybodys_and_delivered_once() -> None:
+    letting_go = "skill Go is rule\n  reads heard\n  drives claw at 1 - heard\n  drives call at 1\n"
+    _, robots = said(letting_go, TAKING.format(y=1.0) + "  rewards 1 per tick when away < 1/2\n")
+    assert [each["rewards has per tick"] for each in robots] == [1.0, 0.0]
+    assert [each["rewards 1 on delivery of gem"] for each in robots] == [1.0, 0.0]
+    assert [each["rewards 1 per tick when away < 1/2"] for each in robots] == [40.0, 39.0]  # one tick in another's claw
+
+
+@pytest.mark.parametrize("paid", [1, 0])
+def test_an_end_for_one_robot_ends_the_run_of_all_unless_it_is_paid_nothing(paid: int) -> None:
+    task = TAKING.format(y=1.2).replace("at 0 2.2", f"at 0 2.2 paid {paid}") + "  ends on delivery of gem\n"
+    rollout = Rollout(
+        Policy(compile_text(f"{BODY}{CLOSING}task Go in plain\n{task}  lasts 40 ticks\n"), {}), "Go", "Go"
+    )
+    scores = rollout.score(np.zeros((1, 0), np.float32), [1, 2])
+    assert scores.ticks.tolist() == [[1, 1] if paid else [40, 40]]
+    assert scores.by_event[0, 0].tolist() == ([1, 0] if paid else [0, 0])
+    assert scores.by_line[0, 0].tolist() == ([0.0, 0.5, 0.0] if paid else [0.0, 0.0, 0.0])

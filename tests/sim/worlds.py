@@ -33,6 +33,7 @@ from mindrun.kinds.things.loose import Ball, LooseBox
 from mindrun.kinds.things.map import Map
 from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.kinds.things.robot import Robot
+from mindrun.kinds.things.slope import Slope
 from mindrun.kinds.things.thing import Item, Power, Zone
 from mindrun.kinds.things.walker import Begin, Walker
 from mindrun.kinds.things.wall import Wall
@@ -44,8 +45,9 @@ SIZES = st.sampled_from([Span(1.0, 1.0), Span(2.0, 5.0), Span(4.0, 1.0, 0.75), S
 WIDE = st.sampled_from([Span(8.0, 8.0), Span(4.0, 12.0), Span(14.0, 6.0, 2.0)])
 APART = [
     ("object", Item, SIZES), ("home", Zone, WIDE), ("coin", Item, SIZES), ("plug", Power, WIDE), ("den", Zone, WIDE),
-    ("crate", LooseBox, SIZES), ("ball", Ball, SIZES), ("cat", Walker, SIZES),
+    ("crate", LooseBox, SIZES), ("ball", Ball, SIZES), ("cat", Walker, SIZES), ("ramp", Slope, WIDE),
 ]  # fmt: skip
+FACINGS, PULLS = st.sampled_from([0.0, -pi / 2, 0.7]), st.sampled_from([0.0, 40.0, 300.0])
 AWAY = st.sampled_from([Span(-1.0, -1.0), Span(0.0, 3.0), Span(0.0, 6.0), Span(2.0, 12.0)])
 PLACES = st.tuples(st.sampled_from([-6.0, 0.0, 4.5]), st.sampled_from([-4.0, 0.5, 3.0]))
 WAYS = [((-9.0, -5.0), (-2.0, -5.0)), ((6.0, 6.0), (6.0, -3.0), (9.5, -3.0)), ((3.0, 7.0), (-3.0, 7.0))]
@@ -262,6 +264,7 @@ def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...], team: bo
             outcomes = {field.name: draw(OUTCOMES) for field in fields(kind) if field.name in ("reached", "delivered")}
             own = {"density": DENSITY, "friction": FRICTION, "damping": DAMPING} if kind.is_loose else {}
             own = {"speed": SPEEDS, "turning": TURNINGS} if kind is Walker else own
+            own = {"facing": FACINGS, "slides": SPEEDS, "pull": PULLS} if kind is Slope else own
             drawn = {name: draw(of) for name, of in own.items()}
             at = draw(st.none() | st.none() | PLACES)
             at = (at,) if at else ()

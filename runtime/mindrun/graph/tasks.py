@@ -126,7 +126,7 @@ def _draws_things(graph: Graph, task: Task) -> bool:
                 return True
             continue
         delivers = can_deliver and (kind.is_loose or can_hold)
-        if is_drawn or not kind.places or kind.wanders or kind.is_robot:  # which faces anywhere
+        if is_drawn or not kind.places or kind.wanders:
             return True
         if kind.outcomes.get("reached") == MOVES or (delivers and kind.outcomes.get("delivered") == MOVES):
             return True

@@ -18,8 +18,8 @@ from mindrun.sim import task_rows
 from mindrun.sim.codes import CODE, SENSOR, Row, Tables, records, span
 from mindrun.sim.kind_lanes import read, unit_of
 from mindrun.sim.mind_rows import Programs, actuator_rows, memory_rows, skill_rows
+from mindrun.sim.numbering import NOWHERE, boxes_by_name, rows_by_name
 from mindrun.sim.parameter_rows import Parameters
-from mindrun.sim.task_rows import NOWHERE, boxes_by_name, rows_by_name
 
 Sizes = Mapping[str, int]  # the room that a lane needs, by what it is for
 

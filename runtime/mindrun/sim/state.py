@@ -20,7 +20,8 @@ Part = TypeVar("Part", bound=Block)
 PLACE_ROWS = 2  # x and y
 FAILED_SKILL, FAILED_COLUMN = range(2)  # of `failed`
 # What is solid: a box or wall that never moves, the robot, what it holds, the same of each other robot, what is loose.
-FIXED, ROBOT, HELD, ROBOT_SOLIDS = 0, 1, 2, 2
+FIXED, ROBOT, HELD = range(3)
+ROBOT_SOLIDS = 2
 MOST_PAIRS, PAIRS_EACH, SPARE_PAIRS = 64, 16, 16  # in a lane, more for each loose thing, and for what is let go
 F4, F8, I8, U1, U8 = np.float32, np.float64, np.int64, np.uint8, np.uint64
 

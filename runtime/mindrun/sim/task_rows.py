@@ -1,8 +1,8 @@
 """The task's rows of the tables: its world, what it contains, its measures, events and rewards."""
 
 from collections.abc import Mapping, Sequence
-from itertools import accumulate, count
-from typing import Any, NamedTuple
+from itertools import count
+from typing import Any
 
 import numpy as np
 
@@ -15,84 +15,18 @@ from mindrun.kinds.things.walker import ANYWHERE
 from mindrun.numbers.arrays import Array
 from mindrun.numbers.quantity import Span
 from mindrun.sim import codes
-from mindrun.sim.codes import DAMPING, HALF_DIAGONAL, INVERSE, OVER, TIMES, WALL_COUNT, Row, records, span
+from mindrun.sim.codes import DAMPING, HALF_DIAGONAL, INVERSE, OVER, TIMES, Row, records, span
 from mindrun.sim.mind_rows import Programs
+from mindrun.sim.numbering import NOWHERE, boxes_by_name, hash_numbers, paid_robots, robot_rows, rows_by_name
 from mindrun.sim.parameter_rows import SAME_IN_EVERY_RUN, Parameters, Step
 
 MIN_CELL_UNITS = 20.0  # the side of a cell of Chipmunk's hash, in which what is large takes only so many
 CELLS_PER_SHAPE, CELLS_PER_WALL = 4, 64
-HASH_SIZES = 5, 13, 23, 47, 97, 193, 389, 769, 1543, 3079, 6151, 12289  # of the hashes of Chipmunk
 SLOP_UNITS = float(np.float32(0.1))  # how deep Chipmunk lets things stand in each other, if nobody says anything else
 SLOP_SHARE = 0.25  # of their least half side is the most
 LEAST_SOLID_UNITS = 1e-3  # half a side that is smaller counts as this
 MIN_NEAR_UNITS = 1.0  # beyond the body's rim
 EVERY_RUN: Row = {"x_row": SAME_IN_EVERY_RUN, "y_row": SAME_IN_EVERY_RUN}  # a place that is the same in all
-NOWHERE = range(-1, -1)  # rows of a thing that the task does not contain
-
-
-def rows_by_name(task: Task) -> dict[str, range]:
-    """The rows of `things_of` that each name has; the empty name has NOWHERE."""
-    found = {"": NOWHERE}
-    for row, thing in enumerate(things_of(task)):
-        found[thing.name] = range(found[thing.name].start if thing.name in found else row, row + 1)
-    return found
-
-
-def boxes_by_name(task: Task) -> dict[str, range]:
-    """The boxes that each name has in every lane, as they are drawn: walls, what has a place or a grid, all others."""
-    obstacles = [thing for thing in task.things if thing.kind.is_obstacle]
-
-    def turn(thing: Thing) -> int:
-        return 0 if thing.kind.walls else 1 + any(row["count"] for row in thing.kind.rows(task.scene))
-
-    found, last = {}, 0
-    for thing in sorted(obstacles, key=turn):
-        found[thing.name] = range(last, last + thing.kind.obstacles(task.scene))
-        last = found[thing.name].stop
-    return found
-
-
-def opened_boxes(task: Task) -> set[int]:
-    """The boxes of what opens in some runs of a task."""
-    boxes = boxes_by_name(task)
-    return {box for end in task.ends if end.opens for box in boxes[end.opens]}
-
-
-def robot_rows(task: Task) -> list[int]:
-    """The row of `things_of` that each robot of the world is to the others; −1 for a first one that is none."""
-    own = rows_by_name(task)[own_name(task)].start
-    others = (row for row, thing in enumerate(things_of(task)) if thing.kind.is_robot and row != own)
-    return [own, *others]
-
-
-def paid_robots(task: Task) -> int:
-    """The number of robots of a task's world to which happens what counts."""
-    things = things_of(task)
-    return 1 + sum(things[row].kind.paid for row in robot_rows(task)[1:])
-
-
-class HashNumbers(NamedTuple):
-    """The numbers that Chipmunk would give to shapes, in the order in which they are added: boxes, walls, the robots,
-    what the first may hold, what the next may …, what is loose.
-
-    That of what a robot holds is by `items` more than that of the robot before it. The hash has shapes in the order of
-    these numbers modulo its `size`.
-    """
-
-    robot: int  # of the first one
-    things: Sequence[int]
-    items: int
-    size: int
-
-
-def hash_numbers(task: Task) -> HashNumbers:
-    things, robots = [thing.kind for thing in things_of(task)], len(robot_rows(task))
-    robot = sum(each.kind.obstacles(task.scene) for each in task.things) + WALL_COUNT * task.scene.is_bounded
-    items = sum(kind.can_be_held for kind in things)
-    held = [*accumulate((kind.can_be_held for kind in things), initial=robot + robots - 1)]
-    loose = [*accumulate((kind.is_loose for kind in things), initial=robot + robots - 1 + robots * items)]
-    numbers = [b if kind.is_loose else a for kind, a, b in zip(things, held[1:], loose[1:], strict=True)]
-    return HashNumbers(robot, numbers, items, next(prime for prime in HASH_SIZES if prime > 1 + loose[-1] - robot))
 
 
 def content_rows(graph: Graph, task: Task, master: str, parameters: Parameters, programs: Programs) -> dict[str, Array]:
@@ -120,31 +54,28 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
     options = 0
     loose, walkers, zones = count(), count(), [thing.kind for thing in task.things if thing.kind.takes_items]
     zones_stay = all(outcome == STAYS for zone in zones for outcome in zone.outcomes.values())
-    first, own = {name: found.start for name, found in rows_by_name(task).items()}, robot_rows(task)[0]
+    first, first_robot = {name: found.start for name, found in rows_by_name(task).items()}, robot_rows(task)[0]
     numbers = hash_numbers(task).things
     for number, thing in enumerate(things_of(task)):
-        kind, size = thing.kind, thing.kind.size
+        kind, size = thing.kind, _size(graph, thing.kind)
         copy = number - first[thing.name] - (thing.name == own_name(task))  # −1 of the first robot, which is no copy
         low, high = kind.distances(task.scene)
         x, y = kind.places[copy] if kind.places else (0.0, 0.0)
         is_drawn = bool(kind.options) or (kind.walks and not kind.wanders)
-        place = _drawn_places(thing, parameters, programs)[:1] if not kind.ways else []
-        if kind.is_robot:
-            size = Span(2 * graph.body.radius, 2 * graph.body.radius)
+        own = _drawn_places(thing, parameters, programs)[:1] if not kind.ways else []
         if kind.is_loose:  # not in the robot
             low = max(low, graph.body.radius + kind.largest * HALF_DIAGONAL)
         row: dict[str, float] = {
             "kind": codes.THING_CODES[names()[type(kind)]], "first": size.first, "last": size.last,
             "by": size.by or 0.0, "drawn": size.by is None and size.first != size.last, "low": low, "high": high,
-            "hold": graph.body.front + kind.largest / 2, "is_fixed": (bool(kind.places) or is_drawn) and number != own,
-            "x": x, "y": y,
-            "is_round": kind.is_round,
-            "is_area": kind.is_area, "is_goal": thing.name in never,
+            "hold": graph.body.front + kind.largest / 2, "x": x, "y": y,
+            "is_fixed": (bool(kind.places) or is_drawn) and number != first_robot,
+            "is_round": kind.is_round, "is_area": kind.is_area, "is_goal": thing.name in never,
             "loose": next(loose) if kind.is_loose else -1, "settles": kind.is_loose and zones_stay,
             "walker": next(walkers) if kind.walks else -1, "number": numbers[number],
-            "copy": copy, "copies": kind.copies, "option": options, "options": 0 if place else len(kind.options),
+            "copy": copy, "copies": kind.copies, "option": options, "options": 0 if own else len(kind.options),
             **(_steepness(kind, graph.tick) if kind.is_steep else {}),
-            **_region(kind, rows_by_name(task)), **(place[0] if place else EVERY_RUN),
+            **_region(kind, rows_by_name(task)), **(own[0] if own else EVERY_RUN),
         }  # fmt: skip
         options += len(kind.options) if copy + 1 == kind.copies else 0
         for what in ("reached", "delivered"):
@@ -154,6 +85,11 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
         row["is_delivered"] = row["is_delivered"] and bool(zones)  # elsewhere nobody looks for zones
         rows.append(row)
     return records(rows, codes.THING)
+
+
+def _size(graph: Graph, kind: ThingKind) -> Span:
+    """The sizes of a thing; of a robot that of the circle around it."""
+    return Span(2 * graph.body.radius, 2 * graph.body.radius) if kind.is_robot else kind.size
 
 
 def _steepness(kind: Any, dt: float) -> Row:

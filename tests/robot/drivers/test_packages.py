@@ -22,7 +22,7 @@ needed = {"ultrasonic": {"trigger": (5,), "echo": (6,)}, "grove_ultrasonic": {"p
     "lamp": {"pin": 5}, "servo": {"pin": 5}, "h_bridge": {"forward": 5, "backward": 6}}
 for noun in ("sensor driver", "actuator driver"):
     for name, driver in kinds(noun).items():
-        if name in ("mock", "simulated", "of one's own"):
+        if name in ("mock", "simulated", "udp", "of one's own"):
             continue
         try:
             driver(**needed.get(name, {})).open()

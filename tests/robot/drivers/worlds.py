@@ -1,5 +1,6 @@
 """For every driver: a fake of its part, what it must read there, and how to break it."""
 
+import socket
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import inf
@@ -27,6 +28,7 @@ from mindrun.robot.drivers.own import KIND as OWN_KIND
 from mindrun.robot.drivers.own import OwnActuator, OwnSensor, of_file
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.drivers.servo import PinServo
+from mindrun.robot.drivers.udp import UdpActuator, UdpSensor
 from mindrun.robot.drivers.ultrasonic import Ultrasonic
 from mindrun.robot.drivers.vl53l0x import Vl53l0x
 
@@ -74,6 +76,16 @@ def on_bus(patch: pytest.MonkeyPatch, address: int, part: Any, **world: Any) -> 
 
 def mock_sensor(patch: pytest.MonkeyPatch) -> World:
     return World(MockSensor(0.3, 2), (0.3, 0.3))
+
+
+def udp_actuator(patch: pytest.MonkeyPatch) -> World:
+    port = 47901  # where it is heard
+    heard = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    heard.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    heard.bind(("127.0.0.1", port))
+    return World(
+        UdpActuator("me", port, "127.0.0.1"), state=lambda device: float(heard.recv(99).split()[-1]), parts=[heard]
+    )
 
 
 def ultrasonic(patch: pytest.MonkeyPatch) -> World:
@@ -277,11 +289,13 @@ SENSORS: dict[str, Callable[[pytest.MonkeyPatch], World]] = {
     "mpu6050": mpu6050,
     "ball_tracker": ball_tracker,
     "ball_eye": ball_eye,
+    "udp": lambda patch: World(UdpSensor("me", 47900), (0.0,)),  # tests/robot/drivers/test_udp.py: nobody speaks here
     OWN_KIND: own_sensor,
 }
 ACTUATORS: dict[str, Callable[[pytest.MonkeyPatch], World]] = {
     "mock": mock_actuator,
     "lamp": lamp,
+    "udp": udp_actuator,
     "servo": servo,
     "h_bridge": h_bridge,
     OWN_KIND: own_actuator,

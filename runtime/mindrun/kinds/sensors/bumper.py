@@ -61,8 +61,8 @@ class Bumper(Physical):
             press(t, s, sensor, 0.0, -half_y - y, True, p)
             for i in range(len(t.loose)):
                 lean(t, s, sensor, i, p)
-            for number in range(len(t.robots)):
-                other = p - p % len(t.robots) + number
+            robots = len(t.robots)
+            for other in range(p - p % robots, p - p % robots + robots):
                 if other != p:
                     lean_robot(t, s, sensor, other, p)
 

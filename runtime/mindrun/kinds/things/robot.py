@@ -20,7 +20,7 @@ class Robot(ThingKind):
 
     The same master is in charge of them, or the skill that they are `under`. The first robot is one more of the first
     name under its master; with `count 0` it is alone in that. They push each other as balls and boxes do. They begin
-    where the first could: anywhere clear in an arena, `away` from it, or `at` places; and face anywhere. With `paid 0`
+    where the first could: anywhere clear in an arena, `away` from it, or `at` places. With `paid 0`
     they are a part of the world: nothing that happens to them is rewarded or counted, or ends a run.
     """
 

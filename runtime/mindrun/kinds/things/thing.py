@@ -2,14 +2,13 @@
 
 from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, field, replace
-from math import hypot, inf, pi
+from math import hypot, inf
 from types import MappingProxyType
 from typing import Annotated, Literal, NamedTuple, Protocol, get_args
 
 from mindrun.kinds.registry import arguments, base, kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.numbers.quantity import (
-    ANGLE,
     COORDINATE,
     DISTANCE,
     FARTHEST_UNITS,
@@ -25,7 +24,6 @@ from mindrun.numbers.quantity import (
     Span,
     ThingName,
 )
-from mindrun.numbers.trigonometry import cosine, sine
 
 OR = " or "  # between the names of the things that a sensor is about alike
 ROBOT = "robot"  # the name by which a thing means the robot
@@ -44,7 +42,6 @@ VANISHES: Outcome = "vanishes"
 MAX_OBSTACLES, MAX_THINGS = 2500, 100  # in one world, which looks at all of its things in every tick
 
 SPEED = replace(POSITIVE, name="a speed in world units per second", high=1e4)
-PULL = replace(POSITIVE, name="a force", low=0.0)
 Row = Mapping[str, float]  # columns of the lanes' table of obstacles
 Alternatives = Annotated[tuple[tuple[Place, ...], ...], COORDINATE]  # each a place, or the places of a way
 
@@ -371,27 +368,6 @@ class Zone(Placed):
 
     is_area = True
     takes_items = True
-
-
-@kind("content", "slope")
-class Slope(Placed):
-    """A steep square of side `size` on the floor: down is where it is `facing`.
-
-    An item on it that no claw holds slides down, at `slides` units per second, until its middle has left the square;
-    and a force `pull` draws a robot down whose middle is on it. `reached` is as for a zone.
-    """
-
-    facing: Annotated[float, ANGLE] = -pi / 2
-    slides: Annotated[float, SPEED] = 5.0
-    pull: Annotated[float, PULL] = 0.0
-
-    is_area = True
-    is_steep = True
-
-    @property
-    def down(self) -> Place:
-        """The direction in which it leads down, of length 1."""
-        return cosine(self.facing), sine(self.facing)
 
 
 @kind("content", "power")

@@ -8,7 +8,8 @@ from mindrun.numbers.arithmetic import *
 from mindrun.sim import codes
 from mindrun.sim.codes import Tables
 from mindrun.sim.lanes.judge import patch_of
-from mindrun.sim.lanes.placement import OF_SEVERAL, any_of, draw, vanish
+from mindrun.sim.lanes.layout import draw
+from mindrun.sim.lanes.placement import OF_SEVERAL, any_of, vanish
 from mindrun.sim.lanes.reaching import begin_inside
 from mindrun.sim.lanes.sharing import is_paid, share_world
 from mindrun.sim.lanes.solid import is_lost, remove_box

@@ -198,57 +198,72 @@ def look_at_loose(tables: Tables, world: WorldState, sight: SightState, first: i
 
 @unit_where(lambda tables: len(tables.robots) > 1 and tables.world[0]["rays"] > 0)
 def look_at_robots(tables: Tables, world: WorldState, sight: SightState, first: int, last: int, lanes: int) -> None:
-    """Shorten each of some rays that meets another robot, but for one of those that its own sensor looks for."""
-    rows, frame = sight.sight, sight.frame
-    for number in range(len(tables.robots)):
-        enter_robot(tables, world, frame, number, lanes)
-        thing = tables.robots[number].thing
-        for ray in range(first, last):
-            cosine, sine, out = tables.rays[COSINE, ray], tables.rays[SINE, ray], rows[FIRST_RAY + ray]
-            if (tables.passes[0, ray] <= thing) & (thing < tables.passes[1, ray]):
-                continue
-            if tables.world[0].is_round:
-                meet_ball(rows, frame, cosine, sine, out, lanes)
-            else:
-                meet_box(rows, frame, cosine, sine, out, lanes)
+    """Shorten each of some rays that meets another robot, but for one of those that its own sensor looks for.
 
-
-def enter_robot(tables, world, frame, number, lanes):
-    """Write the frame of the robot with a number, in whose own lane it is no number."""
-    body, constants, robots = world.body, tables.world[0], len(tables.robots)
+    One that is farther away than any ray reaches is not looked at.
+    """
+    rows, body, robots, radius = sight.sight, world.body, len(tables.robots), F(tables.world[0].radius)
+    most = tables.world[0].near + tables.world[0].radius
     for lane in range(lanes):
-        other = lane - lane % robots + number
-        dx, dy = F(body[X, other] - body[X, lane]), F(body[Y, other] - body[Y, lane])
-        s, c = F(world.heading[SINE, other]), F(world.heading[COSINE, other])
-        if constants.is_round:
-            s, c = ZERO, ONE
-        enter(frame, dx, dy, c, s, lane)
-        if other == lane:
-            frame[LOOSE_X, lane], frame[LOOSE_Y, lane] = np.nan, np.nan
-        frame[LOOSE_HALF_X, lane], frame[LOOSE_HALF_Y, lane] = F(constants.front), F(constants.side)
+        home = lane - lane % robots
+        for other in range(home, home + robots):
+            dx, dy = body[X, other] - body[X, lane], body[Y, other] - body[Y, lane]
+            if other == lane or not dx * dx + dy * dy < most * most:
+                continue
+            thing = tables.robots[other - home].thing
+            for ray in range(first, last):
+                if not (tables.passes[0, ray] <= thing) & (thing < tables.passes[1, ray]):
+                    far = rows[FIRST_RAY + ray, lane]
+                    if tables.world[0].is_round:
+                        far = to_disc(tables, rows, ray, F(dx), F(dy), radius, far, lane)
+                    else:
+                        far = to_outline(tables, world, rows, ray, F(dx), F(dy), other, far, lane)
+                    rows[FIRST_RAY + ray, lane] = far
+
+
+def to_outline(tables, world, rows, ray, x, y, other, far, lane):
+    """How far a ray goes that would go so far, where the rectangle of another robot stands (x, y) from the robot's."""
+    ahead, aside = rows[SIGHT_COSINE, lane], rows[SIGHT_SINE, lane]
+    cosine, sine = tables.rays[COSINE, ray], tables.rays[SINE, ray]
+    c, s = ahead * cosine - aside * sine, aside * cosine + ahead * sine
+    half_x, half_y = F(tables.world[0].front), F(tables.world[0].side)
+    turned_c, turned_s = F(world.heading[COSINE, other]), F(world.heading[SINE, other])
+    x, y = turned_c * x + turned_s * y, turned_c * y - turned_s * x
+    ix, iy = ONE / (c * turned_c + s * turned_s), ONE / (s * turned_c - c * turned_s)
+    left, right, low, high = (x - half_x) * ix, (x + half_x) * ix, (y - half_y) * iy, (y + half_y) * iy
+    enter, leave = max(min(left, right), min(low, high)), min(max(left, right), max(low, high))
+    return enter if (enter >= ZERO) & (enter <= leave) & (enter < far) else far
+
+
+def to_disc(tables, rows, ray, x, y, radius, far, lane):
+    """How far a ray goes that would go so far, where a disc of a radius stands (x, y) from the robot's middle."""
+    ahead, aside = rows[SIGHT_COSINE, lane], rows[SIGHT_SINE, lane]
+    cosine, sine = tables.rays[COSINE, ray], tables.rays[SINE, ray]
+    c, s = ahead * cosine - aside * sine, aside * cosine + ahead * sine
+    across = x * s - y * c
+    room = radius * radius - across * across
+    enter = x * c + y * s - np.sqrt(room if room > ZERO else ZERO)
+    return enter if (room >= ZERO) & (enter >= ZERO) & (enter < far) else far
 
 
 def enter_frame(tables, world, frame, i, lanes):
-    """Write the frame of loose thing i."""
+    """Write the frame of loose thing i: how it is turned, its middle from the robot's in axes that turn with it."""
     body, thing = world.body, tables.loose[i].thing
     for lane in range(lanes):
         x, y = place_of(world.things, thing, lane)
+        dx, dy = F(x - body[X, lane]), F(y - body[Y, lane])
         sine, cosine = sine_cosine(world.loose[LOOSE_ROWS * i + TURN, lane])
-        enter(frame, F(x - body[X, lane]), F(y - body[Y, lane]), F(cosine), F(sine), lane)
-        frame[LOOSE_HALF_X, lane] = frame[LOOSE_HALF_Y, lane] = F(size_of(world.things, thing, lane) / 2)
-
-
-def enter(frame, dx, dy, c, s, lane):
-    """Write how something is turned, and where its middle is from the robot's, in axes that turn with it."""
-    frame[LOOSE_COSINE, lane], frame[LOOSE_SINE, lane] = c, s
-    frame[LOOSE_X, lane], frame[LOOSE_Y, lane] = c * dx + s * dy, c * dy - s * dx
+        s, c = F(sine), F(cosine)
+        frame[LOOSE_COSINE, lane], frame[LOOSE_SINE, lane] = c, s
+        frame[LOOSE_X, lane], frame[LOOSE_Y, lane] = c * dx + s * dy, c * dy - s * dx
+        frame[LOOSE_HALF, lane] = F(size_of(world.things, thing, lane) / 2)
 
 
 def meet_ball(rows, frame, cosine, sine, out, lanes):
     """Shorten a ray of each lane to the disc of its frame, where it meets that before."""
     for lane in range(lanes):
         c, s = direction(rows, frame, cosine, sine, lane)
-        x, y, radius = frame[LOOSE_X, lane], frame[LOOSE_Y, lane], frame[LOOSE_HALF_X, lane]
+        x, y, radius = frame[LOOSE_X, lane], frame[LOOSE_Y, lane], frame[LOOSE_HALF, lane]
         aside = x * s - y * c
         room = radius * radius - aside * aside
         enter = x * c + y * s - np.sqrt(room if room > ZERO else ZERO)
@@ -257,17 +272,12 @@ def meet_ball(rows, frame, cosine, sine, out, lanes):
 
 
 def meet_box(rows, frame, cosine, sine, out, lanes):
-    """Shorten a ray of each lane to the rectangle of its frame, where it meets that before (the slab method)."""
+    """Shorten a ray of each lane to the square of its frame, where it meets that before (the slab method)."""
     for lane in range(lanes):
         c, s = direction(rows, frame, cosine, sine, lane)
-        x, y, half_x, half_y = (
-            frame[LOOSE_X, lane],
-            frame[LOOSE_Y, lane],
-            frame[LOOSE_HALF_X, lane],
-            frame[LOOSE_HALF_Y, lane],
-        )
+        x, y, half = frame[LOOSE_X, lane], frame[LOOSE_Y, lane], frame[LOOSE_HALF, lane]
         ix, iy = ONE / c, ONE / s
-        left, right, low, high = (x - half_x) * ix, (x + half_x) * ix, (y - half_y) * iy, (y + half_y) * iy
+        left, right, low, high = (x - half) * ix, (x + half) * ix, (y - half) * iy, (y + half) * iy
         first_x, last_x = left if left < right else right, right if left < right else left
         first_y, last_y = low if low < high else high, high if low < high else low
         enter = first_x if first_x > first_y else first_y

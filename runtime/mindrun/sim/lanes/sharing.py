@@ -3,7 +3,7 @@
 import numpy as np
 
 from mindrun.numbers.arithmetic import *
-from mindrun.sim.codes import PERSISTENCE_TICKS, SIGNAL, Tables
+from mindrun.sim.codes import OTHER_ROBOT, PERSISTENCE_TICKS, SIGNAL, Tables
 from mindrun.sim.lanes.placement import OF_SEVERAL
 from mindrun.sim.lanes.solid import reach_of, within
 from mindrun.sim.state import ContactState, WorldState
@@ -19,25 +19,28 @@ def is_paid(tables, number):
 
 @OF_SEVERAL
 def join(tables: Tables, world: WorldState, contact: ContactState, lanes: int) -> None:
-    """Let Chipmunk make the tick of all robots of a world where it makes that of any, or two of them could touch.
+    """Let Chipmunk make the tick of two robots that could touch, and of all strides alike where anything is swift.
 
-    Where one leaves all places, all of them fly.
+    Where one leaves all places, all robots of its world fly.
     """
-    near, robots, body = contact.near, len(tables.robots), world.body
+    near, robots, dt = contact.near, len(tables.robots), tables.world[0].dt
     for home in range(0, lanes, robots):
-        most, is_swift, are_there = 0, 0, True
+        is_swift, are_there = 0, True
         for lane in range(home, home + robots):
-            x, y = next_middle(body, tables.world[0].dt, lane)
-            are_there = are_there and within(x, y, body[ANGLE, lane] + body[SPIN, lane] * tables.world[0].dt)
             contact.mates[1, lane], contact.mates[0, lane] = contact.mates[0, lane], 0
-            most, is_swift = max(most, near[lane]), max(is_swift, contact.swift[lane])
+            is_swift = max(is_swift, contact.swift[lane])
+            x, y = next_middle(world.body, dt, lane)
+            are_there = are_there and within(x, y, world.body[ANGLE, lane] + world.body[SPIN, lane] * dt)
+            reach = reach_of(tables, world, lane) + CONTACT_MARGIN_UNITS
             for other in range(home, lane):
-                its_x, its_y = next_middle(body, tables.world[0].dt, other)
-                gap = reach_of(tables, world, lane) + reach_of(tables, world, other) + CONTACT_MARGIN_UNITS
-                if (its_x - x) ** 2 + (its_y - y) ** 2 < gap * gap:
-                    most = CONTACT_TICKS
-        for lane in range(home, home + robots):
-            near[lane], contact.swift[lane] = most if are_there else 0, is_swift
+                its_x, its_y = next_middle(world.body, dt, other)
+                dx, dy = its_x - x, its_y - y
+                gap = reach + (tables.world[0].radius if world.held[other] < 0 else reach_of(tables, world, other))
+                if dx * dx + dy * dy < gap * gap:
+                    near[lane], near[other] = CONTACT_TICKS, CONTACT_TICKS
+        contact.swift[home] = is_swift
+        for lane in range(home, home if are_there else home + robots):
+            near[lane] = 0
 
 
 @OF_SEVERAL
@@ -49,31 +52,32 @@ def share(tables: Tables, world: WorldState, lanes: int) -> None:
 
 def share_world(tables, world, home):
     """Let the robots of a world have the same things, each but what others hold, and each other among them."""
-    end, held = home + len(tables.robots), world.held
-    for lane in range(home + 1, end):
-        share_things(tables, world, home, lane)
+    end, held, things = home + len(tables.robots), world.held, world.things
+    for i in range(len(tables.things)):
+        (x, y), size = place_of(things, i, home), size_of(things, i, home)
+        for lane in range(home + 1, end if tables.things[i].kind != OTHER_ROBOT else home):
+            if held[lane] != i:
+                put_thing(things, i, x, y, lane)
+                resize_thing(things, i, size, lane)
     for lane in range(home, end):
         for other in range(home, end if held[lane] >= 0 else home):
             if other != lane:
-                put_thing(world.things, held[lane], np.nan, np.nan, other)
+                put_thing(things, held[lane], np.nan, np.nan, other)
     for number in range(end - home):
-        (x, y), thing = middle_of(world.body, home + number), tables.robots[number].thing
-        for lane in range(home, end if thing >= 0 else home):
-            is_itself = lane == home + number
-            put_thing(world.things, thing, np.nan if is_itself else x, np.nan if is_itself else y, lane)
-            for i in range(len(tables.actuators)):
-                if tables.actuators[i].kind == SIGNAL:
-                    world.said[number, lane] = world.acting[i, home + number]
+        show_robot(tables, world, number, home, end)
+    for rows in (world.loose, world.direction):
+        for row in range(len(rows) if len(tables.loose) + len(tables.walkers) > 0 else 0):
+            for lane in range(home + 1, end):
+                rows[row, lane] = rows[row, home]
 
 
-def share_things(tables, world, home, lane):
-    """Copy the things of a world's first lane to another of its lanes, but for what is held there."""
-    for i in range(len(tables.things)):
-        if world.held[lane] != i:
-            x, y = place_of(world.things, i, home)
-            put_thing(world.things, i, x, y, lane)
-            resize_thing(world.things, i, size_of(world.things, i, home), lane)
-    for row in range(len(world.loose)):
-        world.loose[row, lane] = world.loose[row, home]
-    for row in range(len(world.direction)):
-        world.direction[row, lane] = world.direction[row, home]
+def show_robot(tables, world, number, home, end):
+    """Let the other robots of a world, in the lanes home to end, see and hear the one with a number."""
+    (x, y), thing, own = middle_of(world.body, home + number), tables.robots[number].thing, home + number
+    for lane in range(home, end if thing >= 0 else home):
+        put_thing(world.things, thing, x, y, lane)
+    if thing >= 0:
+        put_thing(world.things, thing, np.nan, np.nan, own)
+    for i in range(len(tables.actuators)):
+        for lane in range(home, end if tables.actuators[i].kind == SIGNAL else home):
+            world.said[number, lane] = world.acting[i, own]

@@ -104,7 +104,7 @@ def move_loose(
             turn(tables, solid, angle)
         solid.turned = angle
         put_shape(solid, solid.middle_x, solid.middle_y)
-    wake(world, contact.solids[lane], first_loose(tables), lane)
+    wake(world, contact, first_loose(tables), lane)
 
 
 def make(tables, world, solid, i, size, lane):
@@ -120,28 +120,31 @@ def make(tables, world, solid, i, size, lane):
     solid.friction = world.numbers[loose.friction, lane]
 
 
-def wake(world, solids, first, lane):
+def wake(world, contact, first, lane):
     """Wake loose solids, from number `first` on, where something awake comes near, and what these come near."""
-    a = first
+    solids, a = contact.solids[lane], first
     while a < len(solids):
         b = ROBOT
         while solids[a].is_asleep and b < len(solids):
-            if not solids[b].is_asleep and is_there(world, solids[b], b, lane) and overlap(solids[a], solids[b]):
+            if is_awake(world, contact, solids[b], b, lane) and overlap(solids[a], solids[b]):
                 solids[a].is_asleep, a = 0, first - 1
             b += 1
         a += 1
 
 
-def is_there(world, solid, a, lane):
-    """True unless solid `a` is of a claw that holds nothing."""
-    return solid.body == a or world.held[lane + solid.robot] >= 0
+def is_awake(world, contact, solid, a, lane):
+    """True if solid `a` takes part in a step: not what sleeps, a claw that holds nothing, or a robot that flies."""
+    if solid.robot < 0:
+        return solid.is_asleep == 0
+    own = lane + solid.robot
+    return contact.near[own] > 0 and (solid.body == a or world.held[own] >= 0)
 
 
 def gather(world, contact, lane):
     """Write down what is awake, in the order in which Chipmunk's hash has it."""
     solids, awake, count = contact.solids[lane], contact.awake[lane], 0
     for a in range(ROBOT, len(solids)):
-        if not solids[a].is_asleep and is_there(world, solids[a], a, lane):
+        if is_awake(world, contact, solids[a], a, lane):
             k = count
             while k > 0 and solids[awake[k - 1]].turn > solids[a].turn:
                 awake[k], k = awake[k - 1], k - 1

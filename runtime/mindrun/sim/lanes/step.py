@@ -32,11 +32,14 @@ def step(tables: Tables, state: State, lanes: int) -> None:
     fly(world, contact.near, constants, lanes)
     for lane in range(lanes):
         contact.touching[lane] = contact.touching[lane] << 1 & 3  # bit 0 this tick, bit 1 the tick before
-    for lane in range(0, lanes, len(tables.robots)):
-        if contact.near[lane] > 0:
-            make_tick(tables, world, contact, lane)
-        elif world.restless[lane] > 0:
-            slide(tables, world, lane)
+    for home in range(0, lanes, len(tables.robots)):
+        near = 0
+        for lane in range(home, home + len(tables.robots)):
+            near = max(near, contact.near[lane])
+        if near > 0:
+            make_tick(tables, world, contact, home)
+        elif world.restless[home] > 0:
+            slide(tables, world, home)
     for lane in range(lanes):
         world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(world.body[ANGLE, lane])
     carry(world, tables.things, lanes)

@@ -137,7 +137,7 @@ def make_tick(tables: Tables, world: WorldState, contact: ContactState, lane: in
         most = stride(tables, world, lane) if is_swift else dt
         is_last = most >= left or number == MOST_STRIDES - 1
         seconds = min(most, left) if is_last else min(most, left / 2)
-        if is_swift and not all_glide(world.body, len(tables.robots), seconds, lane):
+        if is_swift and not all_glide(world.body, contact.near, len(tables.robots), seconds, lane):
             break
         note_before(tables, world, contact.solids[lane], lane)
         touching += make_step(tables, world, contact, seconds, dt / seconds if is_last else 0.0, lane)
@@ -151,12 +151,12 @@ def make_tick(tables: Tables, world: WorldState, contact: ContactState, lane: in
     return touching
 
 
-def all_glide(body, robots, seconds, lane):
-    """True if all robots of a world stay where worlds are."""
-    gliding = 0
-    for number in range(robots):
-        gliding += 1 if glides(body, seconds, lane + number) else 0
-    return gliding == robots
+def all_glide(body, near, robots, seconds, home):
+    """True if all robots of a world that are in the step stay where worlds are."""
+    lost = 0
+    for lane in range(home, home + robots):
+        lost += 1 if near[lane] > 0 and not glides(body, seconds, lane) else 0
+    return lost == 0
 
 
 def glides(body, seconds, lane):
@@ -179,8 +179,10 @@ def make_step(tables, world, contact, seconds, share, lane):
         its = contact.space[lane + number]
         its.run_into, its.met, its.in_claw = 0, 0, world.held[lane + number]
     forget_old(space, contact.pairs[lane], contact.order[lane])
-    for number in range(robots):
+    for number in range(robots):  # those that are near to nothing have flown
         a = own_solid(number)
+        if contact.near[lane + number] == 0:
+            continue
         move_robot(tables, world, solids[a], solids[a + 1], seconds, share, lane + number)
     if len(tables.loose) > 0:
         move_loose(tables, world, contact, seconds, share, lane)
@@ -195,7 +197,8 @@ def make_step(tables, world, contact, seconds, share, lane):
         solve(contact, tables.world[0].slop, seconds, lane)
     run_into = 0
     for number in range(robots):
-        take_robot(world, solids[own_solid(number)], lane + number)
+        if contact.near[lane + number] > 0:
+            take_robot(world, solids[own_solid(number)], lane + number)
         run_into += note_touch(contact, lane + number)
     if len(tables.loose) > 0:
         take_loose(tables, world, contact, lane)
