@@ -20,6 +20,7 @@ from mindlang.compiler.source import Source
 from tests.edits.sources import a_mind
 from tests.hierarchies import VIRTUAL, physical_kinds, random_graph, virtual_kinds
 from tests.outside.drawn import environment_mind
+from tests.sim.drawn_teams import teams
 from tests.sim.worlds import _events, _measures, _things, learner_kinds, robot_kinds
 
 DRAWN = 400  # minds, and lists of kinds
@@ -96,7 +97,7 @@ def strike_drawn(missing: Missing, strategy: st.SearchStrategy[Iterable[Any]], i
 def task_kinds(draw: st.DrawFn) -> list[Any]:
     """What stands in a task."""
     scene = draw(st.sampled_from([Plain(), Arena(20.0), Arena((26.0, 15.0))]))
-    things = draw(_things(scene, (), team=True))
+    things = draw(_things(scene, (), draw(teams([]))))
     return [scene, *(each.kind for each in things), *draw(_measures(things)), *draw(_events(scene, things))]
 
 

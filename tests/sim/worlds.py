@@ -32,7 +32,6 @@ from mindrun.kinds.scenes.scene import Arena, Plain, SceneKind
 from mindrun.kinds.things.loose import Ball, LooseBox
 from mindrun.kinds.things.map import Map
 from mindrun.kinds.things.obstacle import Obstacle
-from mindrun.kinds.things.robot import Robot
 from mindrun.kinds.things.slope import Slope
 from mindrun.kinds.things.thing import Item, Power, Zone
 from mindrun.kinds.things.walker import Begin, Walker
@@ -40,6 +39,7 @@ from mindrun.kinds.things.wall import Wall
 from mindrun.numbers.quantity import FARTHEST_UNITS, UNSAID, Span
 
 from tests.hierarchies import combined, conditions, on_servos, random_graph
+from tests.sim.drawn_teams import teams
 
 SIZES = st.sampled_from([Span(1.0, 1.0), Span(2.0, 5.0), Span(4.0, 1.0, 0.75), Span(1.0, 3.0, 0.75)])
 WIDE = st.sampled_from([Span(8.0, 8.0), Span(4.0, 12.0), Span(14.0, 6.0, 2.0)])
@@ -51,10 +51,6 @@ FACINGS, PULLS = st.sampled_from([0.0, -pi / 2, 0.7]), st.sampled_from([0.0, 40.
 AWAY = st.sampled_from([Span(-1.0, -1.0), Span(0.0, 3.0), Span(0.0, 6.0), Span(2.0, 12.0)])
 PLACES = st.tuples(st.sampled_from([-6.0, 0.0, 4.5]), st.sampled_from([-4.0, 0.5, 3.0]))
 WAYS = [((-9.0, -5.0), (-2.0, -5.0)), ((6.0, 6.0), (6.0, -3.0), (9.5, -3.0)), ((3.0, 7.0), (-3.0, 7.0))]
-TEAMS = [(), ("mate",), ("mate", "scout")]
-ROBOTS = st.builds(Robot, count=st.sampled_from([1, 1, 3]), away=AWAY) | st.builds(
-    Robot, at=st.tuples(PLACES), or_=st.sampled_from([(), (((9.0, -6.0),),)])
-)
 PATHS = [((-5.0, 0.0), (5.0, 2.0)), ((0.0, 0.0), (3.0, 0.0), (3.0, -6.0))]
 DRAWS = st.sampled_from([
     Draw("side", (-4.0, 3.0)), Draw("side", (1.0, 5.0, -2.5)), Draw("far", (-6.0, 6.0), True), Draw("far", (2.0,)),
@@ -135,15 +131,13 @@ def _robots(draw: st.DrawFn, graph: Graph) -> Graph:
 
 @st.composite
 def random_world(draw: st.DrawFn, most: int = 40, team: bool = False) -> Graph:
-    """A hierarchy with one task, World, in which what may happen happens often: all is large, and near.
-
-    In a `team` there are other robots now and then, of which the plain reference knows nothing.
-    """
+    """A hierarchy with one task, World, in which what may happen happens often; with `team` perhaps other robots."""
     graph = draw(random_graph())
     graph = replace(draw(_robots(graph)), tick=draw(st.sampled_from([1 / 60, 1 / 30, 0.1])))
     scene: SceneKind = draw(st.sampled_from([Plain(), Arena(20.0), Arena(33.0), Arena((26.0, 15.0))]))
     draws = tuple(draw(st.lists(DRAWS, max_size=2, unique_by=lambda drawn: drawn.name)))
-    things = draw(_things(scene, draws, team))
+    others = draw(teams([skill.name for skill in graph.skills])) if team else []
+    things = draw(_things(scene, draws, others))
     graph = draw(_about_several(graph, things))
     measures, events = draw(_measures(things)), draw(_events(scene, things))
     tallies = tuple(
@@ -256,8 +250,8 @@ def _drives(draw: st.DrawFn, names: list[str]) -> dict[str, Any]:
 
 
 @st.composite
-def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...], team: bool) -> tuple[Thing, ...]:
-    """Items, zones and powers, some of them not there; obstacles on a grid or loose; and with `team` other robots."""
+def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...], others: list[Thing]) -> tuple[Thing, ...]:
+    """Items, zones and powers, some of them not there; obstacles on a grid or loose; and others."""
     things: list[Thing] = []
     for name, kind, size in APART:
         if draw(st.integers(0, 2)):
@@ -287,7 +281,7 @@ def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...], team: bo
             has_room = not made.within or made.mistake(scene) is None
             things.append(Thing(name, made if has_room else replace(made, within=""), draw(_presence(draws))))
     things += [replace(each, when=draw(_presence(draws))) for each in draw(_obstacles(scene))]
-    things += [Thing(name, draw(ROBOTS)) for name in draw(st.sampled_from(TEAMS)) if team]
+    things += others
     return tuple(draw(_drawn_places(draw(_counted(each, draws)), draws)) for each in draw(st.permutations(things)))
 
 
@@ -350,7 +344,7 @@ def _counted(draw: st.DrawFn, thing: Thing, draws: tuple[Draw, ...]) -> Thing:
     """A thing, now and then one of which there are as many as are drawn."""
     kind: Any = thing.kind
     counts = [number for number, each in enumerate(draws, 1) if each.is_count]
-    is_countable = getattr(kind, "count", 0) > 1 and not kind.spots
+    is_countable = getattr(kind, "count", 0) > 1 and not (kind.spots or kind.is_robot)
     if not (counts and is_countable and draw(st.booleans())):
         return thing
     many = draw(st.sampled_from(counts))
