@@ -250,7 +250,7 @@ def _drives(draw: st.DrawFn, names: list[str]) -> dict[str, Any]:
 
 
 @st.composite
-def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...], others: list[Thing]) -> tuple[Thing, ...]:
+def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...], team: list[Thing]) -> tuple[Thing, ...]:
     """Items, zones and powers, some of them not there; obstacles on a grid or loose; and others."""
     things: list[Thing] = []
     for name, kind, size in APART:
@@ -281,7 +281,7 @@ def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...], others: 
             has_room = not made.within or made.mistake(scene) is None
             things.append(Thing(name, made if has_room else replace(made, within=""), draw(_presence(draws))))
     things += [replace(each, when=draw(_presence(draws))) for each in draw(_obstacles(scene))]
-    things += others
+    things += team
     return tuple(draw(_drawn_places(draw(_counted(each, draws)), draws)) for each in draw(st.permutations(things)))
 
 
