@@ -33,13 +33,13 @@ test-slow: $(READY)  ## the longer checks, too, with new random cases
 
 # What is tested where PyTorch, Stable-Baselines3, pandas and a browser are, which together are some gigabytes.
 EXTRA_TESTS := tests/weights/test_torch.py tests/examples/test_ppo.py tests/environments/test_stable_baselines.py \
-	tests/api/test_notebook.py tests/view/test_page.py tests/site/test_site.py
+	tests/environments/test_parallel_task.py tests/api/test_notebook.py tests/view/test_page.py tests/site/test_site.py
 
 test-extras: .venv/.extras  ## what is skipped where large packages are missing, after installing these
 	$(BIN)/pytest --numprocesses auto -m "slow or not slow" $(EXTRA_TESTS)
 
 .venv/.extras: $(READY)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[torch,sb3,browser]" pandas
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[torch,sb3,browser]" pandas supersuit
 	$(BIN)/playwright install chromium || echo "no Chromium was installed: tests of pages look for another one"
 	@touch $@
 

@@ -2,7 +2,8 @@
 
 Each is asked for what a learner asks for: observations, rewards, both kinds of ends, next episodes begun. What a step
 is of differs: ours are 1/60 s of a robot among obstacles with ten range finders, contacts by Chipmunk and the task's
-rewards; CartPole's is one Euler step of four numbers; VMAS's a step of agents that push each other, in torch.
+rewards, also where four robots are in one world; CartPole's is one Euler step of four numbers; VMAS's a step of agents
+that push each other, in torch.
 Times are of the CPU, all threads together.
 """
 
@@ -11,16 +12,27 @@ import os
 import time
 from collections.abc import Callable
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 os.environ |= {"OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 
 import gymnasium
 import numpy as np
+from mindrun.errors import MindError
 
 from mindlang.environments import register
 
 COLLECT = Path(__file__).resolve().parent.parent / "examples" / "collect" / "collect.mind"
 ROBOT_COUNT = 1024
+TEAM = """
+task Team in Rocks
+  contains mate is robot count 3
+  contains object is item count 4 size 1
+  contains drop_zone is zone size 10
+  lasts 30000 ticks
+  rewards 30 on delivery of object
+  rewards -20 on collision with mate
+"""
 ACTION_BATCHES = 16  # of actions, drawn before anything is measured
 Step = Callable[[int], object]
 
@@ -67,6 +79,26 @@ def forward(task: str) -> Step:
     return lambda i: env.step(actions)
 
 
+def team() -> Step:
+    """Four robots of Collect in one world, whose episodes are begun by the caller."""
+    from mindlang.environments import ParallelTask
+
+    with TemporaryDirectory() as folder:
+        (mind := Path(folder) / "team.mind").write_text(COLLECT.read_text(encoding="utf-8") + TEAM, encoding="utf-8")
+        env = ParallelTask(mind, "Team", "Collect")
+    env.reset(seed=1)
+    rng, agents = np.random.default_rng(1), env.agents
+    drawn = rng.random((ACTION_BATCHES, len(agents), *env.action_space(agents[0]).shape), np.float32)
+    actions = [dict(zip(agents, each, strict=True)) for each in drawn]
+
+    def step(i: int) -> None:
+        env.step(actions[i % ACTION_BATCHES])
+        if not env.agents:
+            env.reset()
+
+    return step
+
+
 def vmas() -> Step:
     """1,024 worlds of balance of VMAS, on the CPU: three agents carry a bar with a ball on it."""
     import torch
@@ -88,6 +120,10 @@ def main() -> None:
     register(COLLECT)
     alone = rate(single("Collect"), 10 * steps, 1)
     print(f"{alone:12,.0f}  Collect, one robot, gymnasium.make")
+    try:
+        print(f"{rate(team(), 10 * steps, 4):12,.0f}  Collect, four robots in one world, ParallelTask")
+    except MindError as error:  # without PettingZoo
+        print(f"{'':12}  {error}: {error.hint}")
     kinds = {
         "Collect, 1,024 robots, random commands": lambda: many("mind/Collect-v0"),
         "Collect, the same, SameStep": lambda: many("mind/Collect-v0", autoreset_mode="SameStep"),

@@ -33,7 +33,7 @@ from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import broken_sentences, diff, summarise
 from mindlang.limits import LAYOUT_BOUNDS, WORKER_BOUNDS, bounded_int, refuse_too_large, refuse_too_many
 from mindlang.lock.status import ReadyMind, make_ready
-from mindlang.run.chosen_task import master_of, skill_of, task_of, unknown
+from mindlang.run.chosen_task import master_of, robot_of, skill_of, task_of, unknown
 from mindlang.run.outcome import bench_data, over_at_once
 from mindlang.run.recorded_run import record_run
 from mindlang.run.roles import roles_data
@@ -142,21 +142,24 @@ class Mind(ShortRepr):
             raise self._untaught(ready)
         return rollout_for(ready.policy, chosen.name, leader, learners, procedures=self._folder, workers=threads)
 
-    def trace(self, task: str | None = None, seed: int = 0, master: str | None = None) -> Trace:
-        """One run of a task, tick by tick.
+    def trace(self, task: str | None = None, seed: int = 0, master: str | None = None, robot: int = 0) -> Trace:
+        """One run of a task, tick by tick; of several robots in its world, that of a number.
 
         >>> [*mind.trace("Avoid", seed=3).moments][-1].tick
         10000
         """
-        return trace(self.rollout(task, master), bounded_int("seed", LAYOUT_BOUNDS, seed))
+        rollout = self.rollout(task, master)
+        return trace(rollout, bounded_int("seed", LAYOUT_BOUNDS, seed), robot=robot_of(rollout.task, robot))
 
-    def trace_table(self, task: str | None = None, seed: int = 0, master: str | None = None) -> dict[str, Column]:
+    def trace_table(
+        self, task: str | None = None, seed: int = 0, master: str | None = None, robot: int = 0
+    ) -> dict[str, Column]:
         """One run as columns by name, a row for each tick, as `mindc run --trace` has it; pandas takes it as it is.
 
         >>> int(mind.trace_table("Collect", seed=3)["event delivery of object"].sum())
         12
         """
-        setup = self._set_up(task, master)
+        setup = self._set_up(task, master, robot)
         return trace_table(record_run(setup, setup.rollout(), bounded_int("seed", LAYOUT_BOUNDS, seed)))
 
     def bench(
@@ -245,8 +248,8 @@ class Mind(ShortRepr):
     def _folder(self) -> Path:
         return self.path.absolute().parent
 
-    def _set_up(self, task: str | None, master: str | None) -> RunSetup:
-        return set_up(str(self.path), self._without_errors(), task, master)
+    def _set_up(self, task: str | None, master: str | None, robot: int = 0) -> RunSetup:
+        return set_up(str(self.path), self._without_errors(), task, master, robot=robot)
 
     def _without_errors(self) -> Compiled:
         """The compiled mind; MindError where its text has errors."""

@@ -19,6 +19,7 @@ SEED_BOUNDS: Bounds = (0, 2**63 - 1)  # of a training, or of many runs
 LAYOUT_BOUNDS: Bounds = (0, 2**64 - 1)  # seed of one run
 RUN_BOUNDS: Bounds = (1, 10_000_000)
 WORKER_BOUNDS: Bounds = (1, 1024)
+ROBOT_BOUNDS: Bounds = (0, 63)  # number of one, of which a world has at most 64
 GENERATION_BOUNDS: Bounds = (1, 10_000_000)
 POPULATION_BOUNDS: Bounds = (4, 1_000_000)  # genomes
 ATTEMPT_BOUNDS: Bounds = (1, 10_000)

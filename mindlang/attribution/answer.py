@@ -10,7 +10,7 @@ import numpy as np
 from mindrun.engine.changes import ChangedEngine
 from mindrun.engine.think import hierarchy
 from mindrun.errors import MindError
-from mindrun.graph.draws import drawn_in_words
+from mindrun.graph.tasks import robots_in
 from mindrun.graph.weights import reachable
 from mindrun.kinds.sensors.sensor import directions
 from mindrun.numbers.arrays import Bools, Doubles
@@ -24,7 +24,7 @@ from mindlang.attribution.shares import MAX_COUNTED_PATHS, NAMED_PATHS, Contribu
 from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.number_format import score
 from mindlang.run.edge_flow import EdgeFlows, Singles, Sink, sink_named
-from mindlang.run.outcome import events, rewards_data, run_names
+from mindlang.run.outcome import events, rewards_data, robot_words, run_names, seed_words
 from mindlang.run.promises import promises_of
 from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.recording import run_of, running_bundle
@@ -63,7 +63,7 @@ class AttributedRun:
 def attributed_run(run: RecordedRun, seed: int) -> AttributedRun:
     """A run in the simulator with its flows."""
     setup = run.setup
-    about = run_names(setup.task, setup.master, seed)
+    about = run_names(setup.task, setup.master, seed, setup.robot)
     return AttributedRun(about, setup.flows(run), run.commands, np.zeros(len(run.commands), bool), run)
 
 
@@ -82,8 +82,9 @@ def attributed_recording(path: Path, bundle: Path) -> AttributedRun:
     readings, influence = np.array([engine.readings for _ in computed_again(path, of, rows, engine)]), rows["influence"]
     ready, begins = hierarchy(mind.policy, mind.procedures, of.master), np.flatnonzero(rows["tick"] == 0).tolist()
     flows = EdgeFlows(mind.graph, ready, lambda places: (readings[places], influence[places]), begins)
-    about = {"recording": path.name, "master": of.master}
     run = run_of(of, rows, mind, bundle.parent) if of.world else None
+    watched = {"robot": run.setup.robot} if run and robots_in(run.task) > 1 else {}
+    about = {"recording": path.name, "master": of.master, **watched}
     return AttributedRun(about, flows, rows["sent"], rows["stopped"] != 0, run)
 
 
@@ -217,10 +218,9 @@ def _heading(found: dict[str, Any]) -> Text:
         else f"in ticks {first:,} to {last:,} ({first * seconds:.2f} to {last * seconds:.2f} s)"
     )
     whose = (
-        f"{found['recording']}, {found['master']} in charge"
+        f"{found['recording']}, {found['master']} in charge{robot_words(found)}"
         if "recording" in found
-        else f"{found['task']} with {found['master']} in charge, seed {found['seed']}"
-        + drawn_in_words(found.get("drawn", {}))
+        else f"{found['task']} with {found['master']} in charge, {seed_words(found)}"
     )
     return Text.assemble((found["of"], "bold"), f" {when}\n", (whose, "dim"))
 

@@ -73,10 +73,10 @@ def run_ends(setup: RunSetup, rollout: Rollout, seeds: Sequence[int], scores: Sc
         by = ended_by(setup.task, int(scores.ended_by[0, number])) or TIME
         in_control, run_into = None, None
         if not setup.task.scene.environment:
-            made = trace(rollout, seeds[number])
+            made = trace(rollout, seeds[number], robot=setup.robot)
             run = recorded(setup, made)
             in_control = [*run.movers, None][run.in_control(last=1)[0]]
-            touch = last_touch(rollout, made.state) if run.ticks in run.collisions else None
+            touch = last_touch(rollout, made.state, setup.robot) if run.ticks in run.collisions else None
             run_into = _run_into(run, touch) if touch else None
         yield RunEnd(number + 1, seeds[number], int(scores.ticks[0, number]), by, in_control, run_into)
 

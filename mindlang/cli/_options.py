@@ -224,11 +224,13 @@ WORKERS = click.option(
     help="How many cores to use (default: all). Changes nothing else.",
 )
 ON = partial(click.option, "--on", "where", type=executor, metavar="WHERE", shell_complete=one_of(_executors))
+ROBOT = WholeOption(*limits.ROBOT_BOUNDS)
 PATH = click.Path(path_type=Path)
 SKILLS, TASKS = declared("skill"), declared("task")
 IN_CHARGE = "Who is in charge. Default: the mind's master if a lesson on the task is under it, else that of the first."
+WATCHED = "Of several robots in the world: through whose mind the run is seen. Default: 0, the first."
 OF_TASK = named("--task", "TASK", TASKS, "Default: that on which the master is taught, or of its name.")
-OF_A_CAST = "task", "master", "interrupt"  # who does what in a run
+OF_A_CAST = "task", "master", "interrupt", "robot"  # who does what in a run
 OF_A_RUN = (*OF_A_CAST, "seed")
 OF_RUNS_ALONE = "of runs, not of recordings"
 
@@ -241,6 +243,7 @@ class RunChoice:
     seed: int | None
     master: str | None
     interrupt: bool
+    robot: int = 0
 
 
 def run_options(seed: str) -> Option:
@@ -250,6 +253,7 @@ def run_options(seed: str) -> Option:
         @OF_TASK
         @click.option("--seed", type=LAYOUT, help=seed)
         @named("--master", "SKILL", SKILLS, IN_CHARGE)
+        @click.option("--robot", type=ROBOT, default=0, help=WATCHED)
         @unless("--no-interruption interrupt", "Go on to the last tick, whatever would end the run.")
         @wraps(command)
         def called(**said: Any) -> Any:

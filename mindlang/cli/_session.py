@@ -69,7 +69,7 @@ class RunSession:
     def set_up(self, file: str, compiled: Compiled, chosen: RunChoice) -> RunSetup:
         """The task, the master and the weights for a run of a compiled file; ends the program where it cannot begin."""
         with refusing_setups():
-            found = set_up(file, compiled, chosen.task, chosen.master)
+            found = set_up(file, compiled, chosen.task, chosen.master, robot=chosen.robot)
         self.note(*filter(None, (*found.ready.notes, found.note)))
         return found
 

@@ -105,7 +105,10 @@ def _run(file: str, chosen: options.RunChoice, breaks: Path | None, files: RunFi
     if run and counts.watcher.promises:
         counts.add([run])
         came = came | {"promises": counts.data()}
-    found = run_names(setup.task, setup.master, seed) | {"notes": [*setup.ready.notes, *rollout.notes], **came}
+    found = run_names(setup.task, setup.master, seed, setup.robot) | {
+        "notes": [*setup.ready.notes, *rollout.notes],
+        **came,
+    }
     where = [stop_summary(stop)] if breaks else []
     terminal.print_result(found, lambda: Group(*where, run_summary(found)))
     if run:

@@ -116,7 +116,7 @@ def _drive(file: str, bundle: str | None, chosen: RunChoice, names: tuple[str, .
 
     if bundle is not None or Path(file).is_dir() or file.endswith(".rec"):
         raise click.UsageError("--drive is for a run of a .mind file; a robot is driven by mindrun NAME.bundle --drive")
-    refuse_ineffective("of what is seen alone, not of --drive", "breaks", "export", "interrupt", "follow")
+    refuse_ineffective("of what is seen alone, not of --drive", "breaks", "export", "interrupt", "follow", "robot")
     terminal.refuse_unwritable(output.record, ".rec")
     compiled, session = terminal.load_compiled(file), RunSession()
     with refusing_setups(), terminal.procedures_talk():

@@ -3,7 +3,7 @@
 A program commands every actuator, or plays a skill of the hierarchy.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from gymnasium.spaces import Box
 from mindrun.errors import MindError
-from mindrun.graph.graph import Graph, Skill
+from mindrun.graph.graph import Skill
 from mindrun.graph.policy import Policy
-from mindrun.graph.weights import reachable
+from mindrun.graph.skill_sets import acting, owners
 from mindrun.numbers.arrays import Bools
 from mindrun.sim.commanded_lanes import CommandedLanes, commanded_lanes, ended_by
 from mindrun.sim.rollout import Rollout
@@ -30,7 +30,7 @@ from mindlang.pictures.scene import draw_items, draw_names, draw_robot, draw_zon
 from mindlang.pictures.theme import NIGHT
 from mindlang.run.chosen_task import master_of, task_of, unknown
 from mindlang.run.recorded_run import RecordedRun
-from mindlang.run.setup import RunSetup, untaught_skills
+from mindlang.run.setup import RunSetup
 
 Floats = NDArray[np.float32]
 SEED_COUNT = 1 << 64  # layouts
@@ -42,7 +42,8 @@ SHOWN_TICK = 1  # of a run that has one
 
 @dataclass(eq=False, slots=True)
 class Episodes:
-    """Runs of a task side by side, each with an agent: it sees the readings at these indices, its actions are in 0..1.
+    """Runs of a task side by side, with an agent for each robot: it sees the readings at these indices, its actions are
+    in 0..1.
 
     `played` is the skill that it plays, and `row` that one's in the tables; None where it commands the actuators.
     """
@@ -54,72 +55,72 @@ class Episodes:
     row: int | None = None
     played: str | None = None
     seeds: NDArray[np.uint64] = field(init=False)
-    _scores: NDArray[np.float64] = field(init=False)
+    _paid: NDArray[np.float64] = field(init=False)
 
     def __post_init__(self) -> None:
-        self.seeds, self._scores = np.zeros(self.lanes.count, np.uint64), np.zeros(self.lanes.count)
+        self.seeds, self._paid = np.zeros(self.lanes.count, np.uint64), np.zeros(self.lanes.lanes)
 
-    def begin(self, lanes: Bools, seeds: ArrayLike) -> None:
-        """Begin the runs of these layouts in the marked lanes; to be followed by `sense`."""
-        self.seeds[lanes] = seeds
-        self.lanes.begin(lanes, seeds)
-        self._scores[lanes] = 0.0
+    def begin(self, runs: Bools, seeds: ArrayLike) -> None:
+        """Begin the runs of these layouts in place of the marked ones; to be followed by `sense`."""
+        self.seeds[runs] = seeds
+        self.lanes.begin(runs, seeds)
+        self._paid[np.repeat(runs, self.lanes.robots)] = 0.0
 
     def sense(self) -> Floats:
-        """The observations of all agents [lanes, readings]; to be called once in each tick."""
+        """The observations of all agents [robots, readings]; to be called once in each tick."""
         self.lanes.sense()
-        return self._seen(self.lanes.state, self.lanes.count)
+        return self._seen(self.lanes.state, self.lanes.lanes)
 
-    def last_seen(self, lanes: Bools) -> Floats:
-        """The last observations in the marked lanes, before another run begins there; `sense` is not disturbed."""
-        return self._seen(self.lanes.sensed_aside(lanes), int(lanes.sum()))
+    def last_seen(self, runs: Bools) -> Floats:
+        """The last observations in the marked runs, before others take their places; `sense` is not disturbed."""
+        return self._seen(self.lanes.sensed_aside(runs), int(runs.sum()) * self.lanes.robots)
 
     def step(self, actions: ArrayLike) -> tuple[NDArray[np.float64], Bools, Bools]:
-        """Step all lanes by actions [lanes, actions]: rewards, terminations and truncations [lanes].
+        """Step all by actions [robots, actions]: the rewards [robots], the terminations and truncations [runs].
 
         An action that is not finite is not sent."""
-        given = to_actions(actions, (self.lanes.count, self.actions))
+        given = to_actions(actions, (self.lanes.lanes, self.actions))
         if self.row is None:
             self.lanes.command(given)
         else:
             self.lanes.play(self.row, given)
         self.lanes.act()
-        scores = self.lanes.scores
-        rewards, self._scores = scores - self._scores, scores
+        paid = self.lanes.paid
+        rewards, self._paid = paid - self._paid, paid
         terminated = self.lanes.terminated
         return rewards, terminated, self.lanes.timed_out & ~terminated
 
-    def outcome(self, lane: int) -> dict[str, Any]:
+    def outcome(self, run: int) -> dict[str, Any]:
         """The outcome of a run that has ended: layout, score, the end that came, and a `count` where one is kept."""
         task, lanes = self.setup.task, self.lanes
         return {
-            "layout": int(self.seeds[lane]),
-            "score": float(lanes.scores[lane]),
-            **({"count": int(lanes.counts[lane, list(task.counts)].sum())} if task.counts else {}),
-            "ended_by": ended_by(task, int(lanes.ended_by[lane])),
+            "layout": int(self.seeds[run]),
+            "score": float(lanes.scores[run]),
+            **({"count": int(lanes.counts[run, list(task.counts)].sum())} if task.counts else {}),
+            "ended_by": ended_by(task, int(lanes.ended_by[run])),
         }
 
     def _seen(self, state: State, lanes: int) -> Floats:
         return np.ascontiguousarray(state.mind.readings[self.readings, :lanes].T)
 
 
-def episodes_of(file: Path, task: str | None, master: str | None, skill: str | None, lanes: int) -> Episodes:
-    """Episodes in so many lanes; MindError where the mind, the task or a skill cannot be so."""
+def episodes_of(file: Path, task: str | None, master: str | None, skill: str | None, runs: int) -> Episodes:
+    """Episodes in so many runs; MindError where the mind, the task or a skill cannot be so."""
     mind = load(file)
     if skill is not None:
-        return _of_skill(mind, task, master, skill, lanes)
+        return _of_skill(mind, task, master, skill, runs)
     chosen, _ = task_of(mind.graph, task)
     leader = master_of(mind.graph, chosen, master)
     ready = ReadyMind(Policy(mind.graph, {}), (), ())  # no skill runs, so none needs its weights
-    several = commanded_lanes(mind.graph, chosen.name, leader, lanes)
-    seen = {row for each in reachable(mind.graph, leader) for row in each.inputs}
+    several = commanded_lanes(mind.graph, chosen.name, leader, runs)
+    seen = {row for each in acting(mind.graph, chosen, leader) for row in each.inputs}
     sensed = sum(sensor.width for sensor in mind.graph.sensors)  # behind these are the memories of skills
     rows = np.array(sorted(row for row in seen if row < sensed), np.int64)
     setup = RunSetup(chosen, leader, ready, mind.path.absolute().parent)
     return Episodes(setup, several, rows, len(mind.graph.actuators))
 
 
-def _of_skill(mind: Mind, task: str | None, master: str | None, skill: str, lanes: int) -> Episodes:
+def _of_skill(mind: Mind, task: str | None, master: str | None, skill: str, runs: int) -> Episodes:
     graph = mind.graph
     if skill not in (names := [each.name for each in graph.skills]):
         unknown("skill", skill, names)
@@ -127,22 +128,22 @@ def _of_skill(mind: Mind, task: str | None, master: str | None, skill: str, lane
     chosen, _ = task_of(graph, task or (lesson.task if lesson else None))
     is_its_lesson = lesson is not None and lesson.task == chosen.name
     leader = master_of(graph, chosen, master or (lesson.master if lesson and is_its_lesson else None))
-    played = _played(graph, leader, skill)
-    ready = make_ready(graph, mind.compiled.sources, leader)
-    if missing := [name for name in untaught_skills(ready) if name != played.owner]:
+    acts = acting(graph, chosen, leader)
+    played = _played(acts, leader, skill)
+    ready = make_ready(graph, mind.compiled.sources, leader, chosen)
+    if missing := [name for name in reversed(owners(acts)) if name not in {played.owner, *ready.policy.weights}]:
         raise MindError(ready.refusals[-1], command_line("mindc", "train", mind.path, *missing))
     folder = mind.path.absolute().parent
     rollout = Rollout(ready.policy, chosen.name, leader, [skill], procedures=folder)
     number = ready.policy.graph.skill_numbers[skill]
     row = int(np.flatnonzero(rollout.tables.skills["index"] == number)[0])
     inputs = np.array(ready.policy.graph.skills[number].inputs, np.int64)
-    several = CommandedLanes(rollout, lanes)
+    several = CommandedLanes(rollout, runs)
     return Episodes(RunSetup(chosen, leader, ready, folder), several, inputs, played.outputs, row, skill)
 
 
-def _played(graph: Graph, master: str, name: str) -> Skill:
-    """The skill of that name; MindError where nobody can play it."""
-    reached = reachable(graph, master)
+def _played(reached: Sequence[Skill], master: str, name: str) -> Skill:
+    """The skill of that name among those that act; MindError where nobody can play it."""
     skill = next((each for each in reached if each.name == name), None)
     if skill is None:
         raise MindError(f"{name} is not below {master}", f"name a master that influences it: master={name!r}")

@@ -84,7 +84,7 @@ class LiveView:
 def _about(episodes: Episodes, seed: int) -> About:
     graph, world = episodes.setup.ready.policy.graph, episodes.lanes.world_columns(0)
     things = world["things"]
-    begun = world_of(episodes.setup.task, seed, episodes.lanes.boxes(0), world["pose"], things[:, :-1], things[:, -1])
+    begun = world_of(episodes.setup, seed, episodes.lanes.boxes(0), world["pose"], things[:, :-1], things[:, -1])
     return replace(About.of(graph, "", episodes.setup.master, ()), world=begun)
 
 

@@ -19,6 +19,7 @@ from mindrun.numbers.arrays import Bools
 from numpy.typing import NDArray
 
 from mindlang.environments.episodes import (
+    Episodes,
     Floats,
     check_render_mode,
     episodes_of,
@@ -60,7 +61,7 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
     ) -> None:
         EzPickle.__init__(self, file, task, master, skill, render_mode)
         check_render_mode(render_mode, self.metadata)
-        self._episodes = episodes = episodes_of(Path(file), task, master, skill, 1)
+        self._episodes = episodes = _alone(episodes_of(Path(file), task, master, skill, 1))
         self.render_mode = render_mode
         self.metadata = self.metadata | {"render_fps": round(1 / episodes.setup.ready.policy.graph.tick)}
         self.observation_space, self.action_space = unit_box(len(episodes.readings)), unit_box(episodes.actions)
@@ -136,7 +137,7 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
         mode = AutoresetMode(autoreset_mode)
         if mode == AutoresetMode.DISABLED:
             raise MindError("episodes cannot be begun one by one", 'autoreset_mode is "NextStep" or "SameStep"')
-        self._episodes = episodes = episodes_of(Path(file), task, master, skill, num_envs)
+        self._episodes = episodes = _alone(episodes_of(Path(file), task, master, skill, num_envs))
         frames = round(1 / episodes.setup.ready.policy.graph.tick)
         self.metadata = self.metadata | {"autoreset_mode": mode, "render_fps": frames}
         self.num_envs, self.render_mode = num_envs, render_mode
@@ -199,6 +200,17 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
         for lane in np.flatnonzero(lanes).tolist():
             infos = self._add_info(infos, {"layout": self._episodes.seeds[lane]}, lane)
         return infos
+
+
+def _alone(episodes: Episodes) -> Episodes:
+    """The episodes; MindError where several robots are in the world of each."""
+    if episodes.lanes.robots > 1:
+        name, robots = episodes.setup.task.name, episodes.lanes.robots
+        raise MindError(
+            f"{name} has {robots} robots, and this has one agent",
+            "mindlang.environments.ParallelTask has an agent for each",
+        )
+    return episodes
 
 
 def _seeds(given: Seeds, count: int) -> list[int | None]:

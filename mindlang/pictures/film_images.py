@@ -22,6 +22,7 @@ from mindlang.pictures.scene import (
     half_sides,
 )
 from mindlang.pictures.theme import NIGHT
+from mindlang.run.outcome import robot_words
 from mindlang.run.recorded_run import RecordedRun
 
 FILM_WIDTH, FILM_HEIGHT = 1280, 720  # pixels, the height where the world is square
@@ -151,7 +152,9 @@ class FilmImages:
         empty = self._empty_world
         canvas = self._floor(tick) if empty is None else Canvas(empty.copy(), self.view(tick))
         draw_zones(canvas, run, NIGHT, tick)
-        self._path.draw(canvas, max(0, tick - self._trail_ticks), tick, 2.0)
+        first = max(0, tick - self._trail_ticks)
+        path.draw_others(canvas, run, NIGHT, first, tick)
+        self._path.draw(canvas, first, tick, 2.0)
         if has_ended:
             path.draw_end_mark(canvas, run, self._found, NIGHT)
         draw_items(canvas, run, NIGHT, tick)
@@ -169,7 +172,7 @@ class FilmImages:
             f"speed {self._speed:g}",
             f"score {score_of(run.lines[tick - 1]):,.1f}",
             *(f"{event} {times}" for event, times in zip(self._found["counted"], run.counts[tick - 1], strict=True)),
-            f"seed {self._found['seed']}",
+            f"seed {self._found['seed']}{robot_words(self._found)}",
         ]
 
     def _title_places(self, facts: list[str]) -> list[tuple[float, int]]:

@@ -20,6 +20,7 @@ NOBODY_SHADE = 0.3  # from the floor to ink
 CORE_SHARES = 2.0, 0.6  # of the width: a line that has another one in its middle, and that one
 MIN_CONTROL_SHARE = 0.005  # of the run: a skill that was in control for less does not count
 MOST_NUMBERED = 40
+OTHERS_PIXELS, OTHERS_ALPHA = 1.4, 0.6  # of the way of another robot
 MARK_PIXELS, RING_PIXELS = 8.0, 4.0  # from the robot to the mark's inner ring, and from there to the outer one
 BANNER_PIXELS, BANNER_MARGIN_PIXELS = 70.0, 18.0  # its height, and how far it is from the edge of the world
 WORDS_PIXELS, DETAIL_PIXELS, LABEL_PIXELS = 19.0, 11.0, 11.5  # capitals
@@ -85,6 +86,13 @@ def draw_start(canvas: Canvas, run: RecordedRun) -> None:
     canvas.disc(x, y, 5 * canvas.pixel, PAPER.ink, width=1.8)
 
 
+def draw_others(canvas: Canvas, run: RecordedRun, theme: Theme, first: int, last: int) -> None:
+    """Draw the ways of other robots from a tick to another."""
+    for number, (thing, colour) in enumerate(zip(run.contents, thing_colours(run.contents, theme), strict=True)):
+        if thing.kind.is_robot and np.isfinite(run.things[0, number, 0]):  # itself is nowhere among the things
+            canvas.line(run.things[first : last + 1, number, :2], colour, OTHERS_PIXELS, OTHERS_ALPHA)
+
+
 def draw_collisions(canvas: Canvas, run: RecordedRun) -> None:
     for x, y, _ in run.body[run.collisions]:
         draw_cross(canvas, x, y, 5.5 * canvas.pixel, PAPER)
@@ -102,7 +110,7 @@ def draw_former(canvas: Canvas, run: RecordedRun) -> None:
     Of what walks or was pushed also the way; what can be pushed was first where it appeared.
     """
     for number, (thing, colour) in enumerate(zip(run.contents, thing_colours(run.contents, PAPER), strict=True)):
-        former = run.former(number)
+        former = run.former(number)[: 0 if thing.kind.is_robot else None]
         if thing.kind.walks or thing.kind.is_loose:
             for stretch in run.stretches(number):
                 canvas.line(stretch, colour, 1.0, 0.5)

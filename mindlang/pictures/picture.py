@@ -14,6 +14,7 @@ from mindlang.number_format import score
 from mindlang.pictures import path, scene
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, flow_layout, paste, rectangle_corners, reduced
 from mindlang.pictures.theme import PAPER, Colour, mixed
+from mindlang.run.outcome import robot_words
 from mindlang.run.recorded_run import RecordedRun
 
 PICTURE_PIXELS = 1000
@@ -38,6 +39,7 @@ def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
     world, drawn = world_of(run), path.Path.of(run, PAPER)
     path.draw_former(world, run)
     scene.draw_zones(world, run, PAPER, run.ticks)
+    path.draw_others(world, run, PAPER, 0, run.ticks)
     drawn.draw(world, 0, run.ticks, 2.0)
     path.draw_start(world, run)
     path.draw_end_mark(world, run, found, PAPER)
@@ -73,11 +75,13 @@ def view_of(run: RecordedRun, width: int, height: int, *others: RecordedRun) -> 
         half = np.add(scene.half_sides(run.task.scene), scene.WALL_UNITS)
         return Viewport.around(-half, half, width, height)
     seen = np.concatenate([places for each in (run, *others) for places in _places(each)])
+    seen = seen[np.isfinite(seen[:, 0])]
     return Viewport.around(seen.min(axis=0) - PLAIN_MARGIN_UNITS, seen.max(axis=0) + PLAIN_MARGIN_UNITS, width, height)
 
 
 def _places(run: RecordedRun) -> list[NDArray[np.float64]]:
-    things = (run.placements(i)[:, :2] for i in range(len(run.contents)))
+    each = enumerate(run.contents)
+    things = (run.things[:, i, :2] if thing.kind.is_robot else run.placements(i)[:, :2] for i, thing in each)
     return [run.body[:, :2], *things, *(box[None, :2] for box in run.standing.values())]
 
 
@@ -113,6 +117,7 @@ def draw_title(canvas: Canvas, run: RecordedRun, found: dict[str, Any]) -> None:
     canvas.text(x, TITLE_LINE_PIXELS, run.task.name, 24, PAPER.ink, bold=True)
     facts = [
         *(("in charge", found["master"]), ("seed", str(found["seed"]))),
+        *([("robot", str(found["robot"]))] if "robot" in found else []),
         *((name, f"{number:.6g}") for name, number in run.drawn.items()),
         ("score", score(found["score"])),
         *((event, str(times)) for event, times in found["by_event"].items()),
@@ -190,7 +195,7 @@ def two_paths(both: Sequence[tuple[RecordedRun, dict[str, Any]]], words: str, ti
     height, right = height_of(was), PICTURE_PIXELS - SIDE_PIXELS
     page = page_around(_both(was, now, tick), height)
     page.text(SIDE_PIXELS, 40, was.task.name, 24, PAPER.ink, bold=True)
-    said = f"{found['master']} in charge, seed {found['seed']}, {words}"
+    said = f"{found['master']} in charge, seed {found['seed']}{robot_words(found)}, {words}"
     _fitting(page, SIDE_PIXELS, 70, said, WORDS_PIXELS, right - 110)
     when = f"tick {tick:,}"
     page.text(right, 70, when, SMALL_PIXELS, PAPER.ink, align="right")

@@ -98,11 +98,13 @@ def draw_zones(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
 
 
 def draw_items(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """Draw the items, boxes and balls as they are after a tick."""
+    """Draw the items, boxes, balls and other robots as they are after a tick."""
     turned = run.turned[tick][np.isfinite(run.things[tick, :, 0])]
     for (thing, fill, (x, y, size)), angle in zip(each_thing(run, theme, tick), turned, strict=True):
         edge = mixed(fill, theme.ink, 0.45)
-        if thing.kind.is_round:
+        if thing.kind.is_robot:
+            _body(canvas, run, fill, theme, np.array([x, y, angle]))
+        elif thing.kind.is_round:
             canvas.disc(x, y, size / 2, fill)
             canvas.disc(x, y, size / 2, edge, width=1.2)
         elif not thing.kind.is_area:
@@ -135,12 +137,13 @@ def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int, ending
     each = list(each_thing(run, theme, tick))
     squares = [np.array((x, y, 2 * radius)), *(place for thing, _, place in each if not thing.kind.is_area)]
     taken = [Region(x - side / 2, y - side / 2, side, side) for x, y, side in squares]
-    many = Counter(thing.name for thing in run.contents)
+    many = Counter(run.labels)
+    labels = [name for name, there in zip(run.labels, run.things[tick], strict=True) if np.isfinite(there[0])]
     said: dict[int | str | None, SceneLabel] = {None: ending} if ending else {}
-    for number, (thing, _, there) in enumerate(each):
+    for number, (name, (_, _, there)) in enumerate(zip(labels, each, strict=True)):
         if Region(there[0], there[1], 0.0, 0.0).is_within(sight):
-            key: int | str = number if many[thing.name] <= MAX_NAMED_COPIES else thing.name
-            said.setdefault(key, SceneLabel(thing.name, NAME_PIXELS, theme.ink, *there))
+            key: int | str = number if many[name] <= MAX_NAMED_COPIES else name
+            said.setdefault(key, SceneLabel(name, NAME_PIXELS, theme.ink, *there))
     for text in said.values():
         high, wide = text.pixels * canvas.pixel, text_width(text.words, text.pixels * canvas.pen) * pixel
         middle = min(max(text.x, left + wide / 2), left + width * pixel - wide / 2)
@@ -185,21 +188,26 @@ def draw_robot(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
         _rays(canvas, run, theme, tick)
         _claw(canvas, run, theme, tick)
         _jets(canvas, run, theme, tick)
-    pose, body = run.body[tick], run.graph.body
-    if body.outline:
-        _part(canvas, to_world(body.outline, pose), theme, 1.2)
-    else:
-        canvas.disc(pose[0], pose[1], body.radius, theme.robot)
-        canvas.disc(pose[0], pose[1], body.radius, theme.floor, width=1.2)
+    _body(canvas, run, theme.robot, theme, run.body[tick])
     _wheels(canvas, run, theme, tick)
-    canvas.line([pose[:2], *to_world([(0.95 * body.front, 0.0)], pose)], theme.floor, 2.0)
     _lamps(canvas, run, theme, tick)
     _touches(canvas, run, theme, tick)
     _spots(canvas, run, theme, tick)
 
 
-def _part(canvas: Canvas, corners: Floats, theme: Theme, edge: float) -> None:
-    canvas.polygon(corners, theme.robot)
+def _body(canvas: Canvas, run: RecordedRun, colour: Colour, theme: Theme, pose: Floats) -> None:
+    """Draw a robot's body, and a line that shows its heading."""
+    body = run.graph.body
+    if body.outline:
+        _part(canvas, to_world(body.outline, pose), colour, theme, 1.2)
+    else:
+        canvas.disc(pose[0], pose[1], body.radius, colour)
+        canvas.disc(pose[0], pose[1], body.radius, theme.floor, width=1.2)
+    canvas.line([pose[:2], *to_world([(0.95 * body.front, 0.0)], pose)], theme.floor, 2.0)
+
+
+def _part(canvas: Canvas, corners: Floats, colour: Colour, theme: Theme, edge: float) -> None:
+    canvas.polygon(corners, colour)
     canvas.line(corners, theme.floor, edge, closed=True)
 
 
@@ -221,7 +229,7 @@ def _wheels(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
     for ahead, turn in ((-0.5, 0.0), (0.5, steering_angle(run, tick))):
         for side in (body.side, -body.side) if body.axle_distance else ():
             wheel = to_world(rectangle_corners(0, 0, long, wide), np.array([ahead * body.axle_distance, side, turn]))
-            _part(canvas, to_world(wheel, run.body[tick]), theme, 1.0)
+            _part(canvas, to_world(wheel, run.body[tick]), theme.robot, theme, 1.0)
 
 
 def steering_angle(run: RecordedRun, tick: int) -> float:

@@ -41,7 +41,7 @@ THINGS = {
     "power": ("#8e5bd0 #c45bb4 #5468d4 #a3557a", "#b48cff #ea8fdc #8c9dff #d58aad"),
     "box": ("#b07a45 #8c6d5a #a08a3c #7a6f8f", "#d9a066 #b8937a #cdb85c #a497c2"),
     "ball": ("#e05a47 #3f8fb5 #d98a9b #5f9e6e", "#ff7d68 #66b8e0 #ffb0c0 #86cf98"),
-    "robot": ("#4a6fa5 #7c6a9c #5b8a72 #a0714f", "#9cc4f5 #cbb5ee #a5dcc0 #e8b68f"),
+    "robot": ("#3d6ea8 #4f8062 #96577f #8a6d3b", "#86b3ec #93c9a5 #dc9fc6 #d3b583"),
     "walker": ("#b5473c #7d4fa3 #2f7f86 #8a8420", "#f08a7c #c79bf0 #6fcfd6 #d6cf5a"),
 }
 NAMED = {

@@ -5,7 +5,7 @@ from typing import Never
 
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph, Task
-from mindrun.graph.tasks import default_task
+from mindrun.graph.tasks import default_task, robots_in
 
 from mindlang.compiler.diagnostic import did_you_mean, listed
 
@@ -37,6 +37,15 @@ def master_of(graph: Graph, task: Task | None, name: str | None) -> str:
         return skill_of(graph, name)
     masters = [lesson.master for lesson in graph.lessons if task and lesson.task == task.name]
     return masters[0] if masters and graph.master not in masters else graph.master
+
+
+def robot_of(task: Task, number: int) -> int:
+    """The number itself, if a robot in the task's world has it; else SetupError."""
+    last = robots_in(task) - 1
+    if number <= last:
+        return number
+    hint = f"its robots are 0 to {last}" if last else "its only robot is robot 0"
+    raise SetupError(f"there is no robot {number} in {task.name}", hint, misuse=True)
 
 
 def skill_of(graph: Graph, name: str) -> str:

@@ -6,9 +6,10 @@ from math import sqrt
 from typing import Any
 
 import numpy as np
-from mindrun.graph.draws import drawn_numbers
+from mindrun.graph.draws import drawn_in_words, drawn_numbers
 from mindrun.graph.graph import Task
 from mindrun.graph.run_scores import Scores, paid_by_text, score_of
+from mindrun.graph.tasks import robots_in
 from mindrun.kinds.registry import phrase
 from mindrun.sim.codes import BROKEN_OFF, GOING_ON, LOST
 from mindrun.train.scoring import succeeded
@@ -108,10 +109,21 @@ def rewards_data(task: Task, paid: NDArray[np.float64]) -> dict[str, Any]:
     return {"score": finite(score_of(paid)), "by_line": {text: finite(value) for text, value in by_line.items()}}
 
 
-def run_names(task: Task, master: str, seed: int) -> dict[str, Any]:
-    """The task, the master and the seed of a run, and the numbers that the task has drawn for it, if it draws any."""
+def run_names(task: Task, master: str, seed: int, robot: int = 0) -> dict[str, Any]:
+    """The task, the master and the seed of a run, the robot that is watched where there are several, what is drawn."""
+    watched = {"robot": robot} if robots_in(task) > 1 else {}
     drawn = {"drawn": dict(drawn_numbers(task.draws, seed))} if task.draws else {}
-    return {"task": task.name, "master": master, "seed": seed, **drawn}
+    return {"task": task.name, "master": master, "seed": seed, **watched, **drawn}
+
+
+def seed_words(found: dict[str, Any]) -> str:
+    """The words `seed 3, robot 2, side 1` of a run with these `run_names`."""
+    return f"seed {found['seed']}{robot_words(found)}{drawn_in_words(found.get('drawn', {}))}"
+
+
+def robot_words(found: dict[str, Any]) -> str:
+    """The words `, robot 2` of a run in whose world are several; empty for any other."""
+    return f", robot {found['robot']}" if "robot" in found else ""
 
 
 def bench_data(

@@ -12,6 +12,7 @@ from mindrun.graph.recording_header import GOES_ON
 from mindrun.graph.skill_sets import movers
 from mindrun.graph.tasks import things_of
 from mindrun.sim.codes import AWAY
+from mindrun.sim.numbering import robot_numbers
 from mindrun.sim.rollout import Rollout, scores_of
 from mindrun.sim.trace import Trace, joined, trace
 from numpy.typing import NDArray
@@ -85,6 +86,12 @@ class RecordedRun:
         return things_of(self.task)
 
     @property
+    def labels(self) -> list[str]:
+        """The names of the `contents`; of a robot, which one it is: `robot 2`."""
+        robots = robot_numbers(self.task)
+        return [f"robot {robots[i]}" if i in robots else thing.name for i, thing in enumerate(self.contents)]
+
+    @property
     def collisions(self) -> NDArray[np.int64]:
         """The ticks in which the robot began to touch something."""
         return np.flatnonzero(self.touching & ~np.concatenate([[False], self.touching[:-1]])) + 1
@@ -151,18 +158,18 @@ class RunResult:
 
 def run_result(setup: RunSetup, rollout: Rollout, seed: int, changes: Sequence[Change] = ()) -> RunResult:
     """The run of a seed, with changes, and its outcome."""
-    return result_of_trace(setup, trace(rollout, seed, changes=changes), seed)
+    return result_of_trace(setup, trace(rollout, seed, changes=changes, robot=setup.robot), seed)
 
 
 def result_of_trace(setup: RunSetup, run: Trace, seed: int) -> RunResult:
     """Make a run of that seed that is about to begin, write it down, and return it with its outcome."""
     written = recorded(setup, run)
     found = run_data(setup.task, scores_of(run.jobs, setup.task))
-    return RunResult(written, run_names(setup.task, setup.master, seed) | found)
+    return RunResult(written, run_names(setup.task, setup.master, seed, setup.robot) | found)
 
 
 def record_run(setup: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:
-    return recorded(setup, trace(rollout, seed))
+    return recorded(setup, trace(rollout, seed, robot=setup.robot))
 
 
 def recorded(setup: RunSetup, run: Trace) -> RecordedRun:

@@ -13,6 +13,7 @@ from mindrun.graph.measured import measured_in_world, measured_on_robot, rows_of
 from mindrun.graph.named_readings import physical
 from mindrun.graph.recording_header import GOES_ON, POSE_COLUMNS, THING_COLUMNS, About, RecordedWorld, RecordingError
 from mindrun.graph.skill_sets import reachable
+from mindrun.graph.tasks import robots_in
 from mindrun.graph.wiring import read_by
 from mindrun.robot.recording import recording_bytes
 from mindrun.sim.codes import AWAY
@@ -49,8 +50,13 @@ def recorded_task(of: About, mind: Bundle) -> Task | None:
 
 
 def measured_in(of: About, mind: Bundle) -> NDArray[np.bool_]:
-    """The readings [graph.width] that a recording made with this bundle has measured: 0.1.0 wrote 0 for all others."""
+    """The readings [graph.width] that a recording made with this bundle has measured: 0.1.0 wrote 0 for all others.
+
+    It knew no world with several robots, in which any may be measured for another one's skills.
+    """
     task = recorded_task(of, mind)
+    if task and robots_in(task) > 1:
+        return np.ones(mind.graph.width, np.bool_)
     simulated = measured_in_world(mind.graph, of.master, task) if task else []
     return rows_of(mind.graph, [*measured_on_robot(mind.graph, of.sensors), *simulated])
 
@@ -94,8 +100,8 @@ def run_bytes(run: RecordedRun, setup: RunSetup, seed: int) -> bytes:
     It names the bundle that `mindc build` writes of the setup's mind under its master. MindError where the world is too
     large to be recorded.
     """
-    graph, world = run.graph, world_of(setup.task, seed, run.boxes, run.body[0], run.things[0], run.turned[0])
-    about = about_of(setup, bundle_without_robot(setup.ready, setup.folder), world)
+    graph, world = run.graph, world_of(setup, seed, run.boxes, run.body[0], run.things[0], run.turned[0])
+    about = about_of(setup, bundle_without_robot(setup.mind, setup.folder), world)
     rows = recorded_rows(about, 1, run, run.events)
     varies = any((each.noun, each.argument) == ("actuator", "delay") for each in setup.task.varies)
     if varies or any(each.kind.delay for each in graph.actuators):  # what reaches one was sent some ticks ago
@@ -106,9 +112,10 @@ def run_bytes(run: RecordedRun, setup: RunSetup, seed: int) -> bytes:
     return recording_bytes(about, rows)
 
 
-def world_of(task: Task, seed: int, boxes: Floats, pose: Floats, things: Floats, turned: Floats) -> RecordedWorld:
+def world_of(setup: RunSetup, seed: int, boxes: Floats, pose: Floats, things: Floats, turned: Floats) -> RecordedWorld:
     """The world of a run that begins so: x, y, angle; x, y, size [things, 3]; turned [things]."""
-    return RecordedWorld.of(task, seed, boxes, [*pose, *np.column_stack([things, turned]).ravel()])
+    begin = [*pose, *np.column_stack([things, turned]).ravel()]
+    return RecordedWorld.of(setup.task, seed, boxes, begin, setup.robot)
 
 
 def recorded_rows(about: About, first: int, written: Ticks | RecordedRun, events: NDArray[np.int64]) -> Rows:
@@ -145,7 +152,7 @@ def run_of(about: About, rows: Rows, mind: Bundle, folder: Path) -> RecordedRun:
     reached = np.isin(about.skills, [skill.name for skill in reachable(mind.graph, about.master)])
     things = np.concatenate([begin[POSE_COLUMNS:].reshape(1, -1, THING_COLUMNS), world["things"]])
     return RecordedRun(
-        RunSetup(task, about.master, ReadyMind(mind.policy, (), ()), folder),
+        RunSetup(task, about.master, ReadyMind(mind.policy, (), ()), folder, robot=said.robot),
         np.array([box or NO_BOX for box in said.boxes], np.float64).reshape(-1, 4),
         np.concatenate([begin[None, :POSE_COLUMNS], world["pose"]]),
         things[:, :, :-1],

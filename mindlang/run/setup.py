@@ -11,8 +11,8 @@ from mindrun.engine.engine import procedure_sources
 from mindrun.graph.graph import Task
 from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores
-from mindrun.graph.skill_sets import genes, owners, reachable
-from mindrun.graph.tasks import is_one_world
+from mindrun.graph.skill_sets import genes, masters_of, owners, reachable
+from mindrun.graph.tasks import is_one_world, masters_in
 from mindrun.processors import cpu_seconds
 from mindrun.terminal.command_line import command_line
 
@@ -21,7 +21,7 @@ from mindlang.compiler.diagnostic import listed
 from mindlang.executors.jobs import Block, JobScorer, empty_scores, write_scores
 from mindlang.limits import RUN_BOUNDS, SEED_BOUNDS, bounded_int
 from mindlang.lock.status import ReadyMind, make_ready
-from mindlang.run.chosen_task import SetupError, master_of, task_of
+from mindlang.run.chosen_task import SetupError, master_of, robot_of, task_of
 from mindlang.run.edge_flow import EdgeFlows, ReadingsAndInfluence, edge_flows
 
 if TYPE_CHECKING:
@@ -33,18 +33,39 @@ SLICE_RUNS = 1 << 16  # that are begun together, so that memory is for their res
 
 @dataclass(frozen=True, slots=True)
 class RunSetup:
-    """A task, the master in charge of it, and a mind that is ready to run; `note` says why it is this task."""
+    """A task, the master in charge of it, and a mind that is ready to run; `note` says why it is this task.
+
+    Of several robots in its world one is watched, by its number from 0 on: what is written down of a run is its mind,
+    and the master is its own. That of the first robot is the `first`, where it may be another.
+    """
 
     task: Task
     master: str
     ready: ReadyMind
     folder: Path
     note: str = ""
+    robot: int = 0
+    first: str = ""
+
+    def watching(self, robot: int) -> "RunSetup":
+        """The run seen through another robot of its world; SetupError where there is no such robot."""
+        first = self.first or self.master
+        master = masters_in(self.task, first)[robot_of(self.task, robot)]
+        return replace(self, robot=robot, master=master, first=first)
+
+    @property
+    def mind(self) -> ReadyMind:
+        """The mind of the robot that is watched: its master, and the weights of all below; none of other robots'."""
+        policy = self.ready.policy
+        if len(masters_of(self.task, self.first or self.master)) == 1:
+            return self.ready
+        weights = {name: policy.weights[name] for name in owners(reachable(policy.graph, self.master))}
+        return replace(self.ready, policy=Policy(replace(policy.graph, master=self.master), weights))
 
     @property
     def is_one_world(self) -> bool:
         """True if nothing of the task is drawn, so that all of its runs are one."""
-        return is_one_world(self.ready.policy.graph, self.task, self.master)
+        return is_one_world(self.ready.policy.graph, self.task, self.first or self.master)
 
     @property
     def world_notes(self) -> list[str]:
@@ -74,23 +95,26 @@ class RunSetup:
         """The task under the master, in the simulator. Runs the text of the procedures' modules."""
         from mindrun.sim.rollouts import rollout_for
 
-        of, task = self.ready.policy, self.task.name
-        return rollout_for(of, task, self.master, procedures=self.folder, interrupt=interrupt, workers=workers)
+        of, task, first = self.ready.policy, self.task.name, self.first or self.master
+        return rollout_for(of, task, first, procedures=self.folder, interrupt=interrupt, workers=workers)
 
 
-def set_up(file: str, compiled: Compiled, task: str | None, master: str | None, untaught: bool = False) -> RunSetup:
+def set_up(
+    file: str, compiled: Compiled, task: str | None, master: str | None, untaught: bool = False, robot: int = 0
+) -> RunSetup:
     """The task and the master of these names, or the default ones; SetupError where they cannot run.
 
-    Where skills may be `untaught`, those that are have weights of 0.
+    Where skills may be `untaught`, those that are have weights of 0. Of several robots that of the number is watched.
     """
     _, graph = compiled.whole
     chosen, note = task_of(graph, task)
     leader = master_of(graph, chosen, master)
     folder = compiled.sources[0].folder
     if untaught:
-        ready = make_ready(graph, compiled.sources, leader, chosen)
-        return RunSetup(chosen, leader, with_zero_weights(ready), folder, note)
-    return RunSetup(chosen, leader, ready_to_act(file, compiled, leader, chosen), folder, note)
+        ready = with_zero_weights(make_ready(graph, compiled.sources, leader, chosen))
+    else:
+        ready = ready_to_act(file, compiled, leader, chosen)
+    return RunSetup(chosen, leader, ready, folder, note).watching(robot)
 
 
 def ready_to_act(file: str, compiled: Compiled, master: str | None = None, task: Task | None = None) -> ReadyMind:

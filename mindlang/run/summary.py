@@ -11,7 +11,7 @@ from rich.text import Text
 
 from mindlang.number_format import duration, finite, score, speed
 from mindlang.run.comparison import PERCENT, SCORE, SUCCESS, MindComparison, amount
-from mindlang.run.outcome import TIME
+from mindlang.run.outcome import TIME, robot_words
 from mindlang.run.paired_difference import MAX_RUNS, PairedDifference
 from mindlang.run.worlds import figure
 
@@ -29,8 +29,9 @@ def run_summary(found: dict[str, Any]) -> RenderableType:
     """One run: how it ended, what it counted, and what each reward line paid."""
     ended = f"ended by {found['ended_by']}" if found["ended_by"] else "lasted its time"
     ended += ", a success" * found.get("succeeded", False)
+    whose = robot_words(found) if found.get("robot") or found.get("stopped") else ""
     facts = _facts(
-        ("seed", f"{found['seed']}{drawn_in_words(found.get('drawn', {}))}"),
+        ("seed", f"{found['seed']}{whose}{drawn_in_words(found.get('drawn', {}))}"),
         *_counted({event: f"{times} × " for event, times in found["by_event"].items()}),
         ("ticks", f"{found['ticks']:,} of {found['of_ticks']:,}, {ended}"),
         ("faults", _faults(found)),

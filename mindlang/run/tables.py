@@ -56,9 +56,14 @@ def trace_table(run: "RecordedRun") -> dict[str, Column]:
 
 def _world(run: "RecordedRun") -> Iterator[tuple[str, Column]]:
     yield from zip(("x", "y", "angle"), run.body[1:].T, strict=False)
-    for i, thing in enumerate(run.contents):
+    itself = f"robot {run.setup.robot}"
+    for i, (thing, label) in enumerate(zip(run.contents, run.labels, strict=True)):
+        if label == itself:
+            continue
         for k, name in enumerate(("x", "y", "size")):
-            yield f"{thing.name} {name}", np.where(np.isfinite(run.things[1:, i, k]), run.things[1:, i, k], np.nan)
+            yield f"{label} {name}", np.where(np.isfinite(run.things[1:, i, k]), run.things[1:, i, k], np.nan)
+        if thing.kind.is_robot:
+            yield f"{label} angle", run.turned[1:, i]
     names = np.array([*(thing.name for thing in run.contents), ""])
     yield "held", names[run.held[1:]]
     yield "touching", run.touching.astype(np.int64)

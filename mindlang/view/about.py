@@ -8,10 +8,10 @@ from mindrun.graph.graph import Graph, Skill, Task
 from mindrun.graph.named_readings import named_places, reading_names, servo_reading
 from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import About
-from mindrun.graph.tasks import things_of
+from mindrun.graph.tasks import robots_in, things_of
 from mindrun.kinds.registry import names
 from mindrun.robot.hand import hand_on
-from mindrun.sim.numbering import opened_boxes
+from mindrun.sim.numbering import opened_boxes, robot_numbers
 
 from mindlang.pictures.scene import half_sides, thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, code
@@ -48,6 +48,8 @@ def about_data(
         "tick": of.tick,
         "task": shown(task.name) if task else None,
         "seed": str(of.world.seed) if task and of.world else None,
+        "robot": of.world.robot if of.world else 0,
+        "robots": robots_in(task) if task else 1,
         "rewards": [shown(text) for text in rewards],
         "ends": [shown(text) for text in outcome.ends(task)] if task else [],
         "world": _world(graph, task, of, columns) if task and of.world and has_robot else None,
@@ -184,6 +186,7 @@ def _world(graph: Graph, task: Task, of: About, columns: Columns) -> Data:
     colours = zip(thing_colours(contents, PAPER), thing_colours(contents, NIGHT), strict=True)
     assert of.world
     body, opened, world = graph.body, opened_boxes(task), of.world
+    robots = robot_numbers(task)
     standing = [(number, box) for number, box in enumerate(world.boxes) if box]
     return {
         "arena": [*half_sides(task.scene)] if task.scene.is_bounded else None,
@@ -196,8 +199,9 @@ def _world(graph: Graph, task: Task, of: About, columns: Columns) -> Data:
                 "shape": "area" if thing.kind.is_area else "disc" if thing.kind.is_round else "square",
                 "light": code(light),
                 "dark": code(dark),
+                "robot": robots.get(row),
             }
-            for thing, (light, dark) in zip(contents, colours, strict=True)
+            for row, (thing, (light, dark)) in enumerate(zip(contents, colours, strict=True))
         ],
         "robot": {
             "radius": body.radius,

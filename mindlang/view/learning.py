@@ -127,12 +127,12 @@ class Learning:
         number = max(playable, key=lambda number: self.runs[number].grown)
         return number, *self.runs[number].champions[-1].position
 
-    def begin(self, number: int, attempt: int, generation: int, seed: int | None = None) -> Viewed:
+    def begin(self, number: int, attempt: int, generation: int, seed: int | None = None, robot: int = 0) -> Viewed:
         """The run of a champion, which has not begun but for its beginning; MindError where it cannot be made."""
         learnt = self.runs[number]
         champion = learnt.champion(attempt, generation)
         setup, texts = self._setup(learnt.run, champion.genome)
-        viewed = ViewedRun(setup, setup.rollout(), self.seed if seed is None else seed, texts).begun()
+        viewed = ViewedRun(setup.watching(robot), setup.rollout(), self.seed if seed is None else seed, texts).begun()
         viewed.about = {
             **viewed.about,
             "source": "training",
@@ -144,6 +144,7 @@ class Learning:
                 "score": learnt.score(attempt, generation),
             },
         }
+        viewed.watched = lambda robot: self.begin(number, attempt, generation, seed, robot)
         viewed.grow()
         return viewed
 

@@ -136,8 +136,26 @@ class PlaySeed(_PageMessage, tag="layout", frozen=True):
         _refuse_no_seed(self.seed)
 
 
+class WatchRobot(_PageMessage, tag="watch", frozen=True):
+    """Asks to see the run through another robot of its world, by its number."""
+
+    robot: Whole
+
+    fork: ClassVar[int] = 0
+
+
 Message = (
-    AskRows | AskColumns | AskImage | AskRun | AskShares | AskChange | PlayChampion | SayOrder | SayHand | PlaySeed
+    AskRows
+    | AskColumns
+    | AskImage
+    | AskRun
+    | AskShares
+    | AskChange
+    | PlayChampion
+    | SayOrder
+    | SayHand
+    | PlaySeed
+    | WatchRobot
 )
 _DECODER: msgspec.json.Decoder[Message] = msgspec.json.Decoder(Message)
 

@@ -111,6 +111,7 @@ class ViewSession:
                 | messages.SayOrder()
                 | messages.SayHand()
                 | messages.PlaySeed()
+                | messages.WatchRobot()
             ) if not edits:
                 raise RefusedError("somebody else may change this run: the first who opened it")
             case messages.PlayChampion():
@@ -127,6 +128,9 @@ class ViewSession:
                 return None
             case messages.PlaySeed(seed=seed):
                 await self._anew(None if seed is None else int(seed))
+                return None
+            case messages.WatchRobot(robot=robot):
+                await self._watch(robot)
                 return None
         viewed = self.forks[message.fork]  # another run may be seen when it is this question's turn
         return await asyncio.get_running_loop().run_in_executor(self._answerer, _computed, viewed, message)
@@ -147,6 +151,12 @@ class ViewSession:
         if anew is None:
             raise RefusedError("nobody drives here in a simulated world")
         self.show(await asyncio.get_running_loop().run_in_executor(self._grower, anew, seed))
+
+    async def _watch(self, robot: int) -> None:
+        watched = self.forks[0].watched
+        if watched is None:
+            raise RefusedError("a recording is of one robot: mindc run --robot writes that of another")
+        self.show(await asyncio.get_running_loop().run_in_executor(self._grower, watched, robot))
 
     async def _play(self, asked: messages.PlayChampion) -> None:
         if self.learning is None or asked.run >= len(self.learning.runs):

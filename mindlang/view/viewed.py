@@ -48,8 +48,8 @@ class Viewed:
     `happened` has pairs of a tick and the number of an event, `stops` of a tick and the breakpoint that holds there; in
     the ticks of `begins` the mind was begun anew. `drawing` is of its environment. What `is_live` grows without being
     asked. `forked` makes the same run with a change, and says that in words; RefusedError where that cannot be, None
-    where nothing can be changed. The `hand` drives it here, and `anew` makes the run of another seed. One thread lets
-    it `grow`; others may ask at the same time.
+    where nothing can be changed. The `hand` drives it here, and `anew` makes the run of another seed; `watched` makes
+    the run seen through another robot. One thread lets it `grow`; others may ask at the same time.
     """
 
     def __init__(
@@ -70,6 +70,7 @@ class Viewed:
         self.forked: Callable[[AskChange], tuple[Viewed, str]] | None = None
         self.hand: Hand | None = None
         self.anew: Callable[[int | None], Viewed] | None = None
+        self.watched: Callable[[int], Viewed] | None = None
         self.blocks = RowBlocks()
         self.happened: list[tuple[int, int]] = []
         self.stops: list[tuple[int, str]] = []

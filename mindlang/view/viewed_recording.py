@@ -19,6 +19,7 @@ from mindrun.files.regular_files import open_regular
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.draws import drawn_in_words, drawn_numbers
 from mindrun.graph.recording_header import MAX_HEADER_BYTES, About
+from mindrun.graph.tasks import robots_in
 from mindrun.robot.recording import RecordingError, read, read_growing
 
 from mindlang.run.recording import measured_in, recorded_task, running_bundle
@@ -63,6 +64,7 @@ def _viewed(
     found = running_bundle(bundle, of)
     title, source = f"{path.name} with {of.master} in charge", "robot" if of_ticks is None else "recording"
     if (task := recorded_task(of, found)) and of.world:
+        title += f", robot {of.world.robot}" * (robots_in(task) > 1)
         title += drawn_in_words(drawn_numbers(task.draws, of.world.seed))
     rows, watch = _measured(of, parts, found), watching(of, found).feed if watching else None
     return viewed_rows(title, source, of, found, task, bundle.absolute().parent, rows, of_ticks, watch)

@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Breakpoint
 from mindlang.breakpoints.watch import RowBlock, watcher
+from mindlang.run.outcome import run_names, seed_words
 from mindlang.run.recording import about_of, bundle_without_robot, recorded_rows, world_of
 from mindlang.run.setup import RunSetup
 from mindlang.view import messages
@@ -57,15 +58,21 @@ class ViewedRun:
     def begun(self) -> Viewed:
         """The run that the rollout makes of the seed, with the changes."""
         setup, task, policy = self.setup, self.setup.task, self.setup.ready.policy
-        run = trace(self.rollout, self.seed, changes=self.changes)
-        world = world_of(task, self.seed, run.boxes, run.begin, run.things, run.turned)
+        run = trace(self.rollout, self.seed, changes=self.changes, robot=setup.robot)
+        world = world_of(setup, self.seed, run.boxes, run.begin, run.things, run.turned)
         of = replace(About.of(policy.graph, "", setup.master, ()), world=world)
         mind = Bundle(policy, procedure_sources(policy.graph, setup.folder, setup.master))
-        drawn = drawn_in_words(drawn_numbers(task.draws, self.seed))
-        title = f"{task.name} with {setup.master} in charge, seed {self.seed}{drawn}"
+        names = run_names(task, setup.master, self.seed, setup.robot)
+        title = f"{task.name} with {setup.master} in charge, {seed_words(names)}"
         rows, watch = _rows(run, of, len(task.events)), self._watch()
         viewed = viewed_rows(title, RUN, of, mind, task, setup.folder, rows, task.ticks, watch, self.texts)
-        viewed.forked = partial(self._forked, viewed.columns)
+        viewed.forked, viewed.watched = partial(self._forked, viewed.columns), self._watched
+        return viewed
+
+    def _watched(self, robot: int) -> Viewed:
+        """The run seen through another robot, as far as its beginning; SetupError where there is no such robot."""
+        viewed = replace(self, setup=self.setup.watching(robot), changes=()).begun()
+        viewed.grow()
         return viewed
 
     def _watch(self) -> Watch | None:

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from mindrun.engine.changes import Change, ChangedEngine, ChangeError, in_tick
 from mindrun.graph.bundle import Bundle
-from mindrun.graph.draws import drawn_in_words
 from mindrun.graph.graph import Graph
 from mindrun.graph.named_readings import physical, reading_names
 from mindrun.graph.run_scores import paid_by_text
@@ -25,6 +24,7 @@ from rich.text import Text
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.number_format import score
+from mindlang.run.outcome import seed_words
 from mindlang.run.recorded_run import ROWS, WITH_BEGINNING, RecordedRun, RunResult, result_of_trace, run_result
 from mindlang.run.recording import running_bundle
 from mindlang.run.setup import RunSetup
@@ -78,7 +78,7 @@ def compare_runs(
         now = run_result(*(theirs or ours), seed, changes)
     else:
         setup, rollout = theirs
-        rest = result_of_trace(setup, take_over(ours[1], seed, tick, rollout, changes), seed)
+        rest = result_of_trace(setup, take_over(ours[1], seed, tick, rollout, changes, setup.robot), seed)
         now = RunResult(_continued(was.run, rest.run, tick - 1), rest.found)
     return Compared(was, now, first_differences(_columns(was.run), _columns(now.run)))
 
@@ -241,7 +241,7 @@ def comparison_summary(request: Request, compared: Compared) -> RenderableType:
     return Group(
         Text.assemble(
             (was["task"], "bold"),
-            f" with {was['master']} in charge, seed {was['seed']}{drawn_in_words(was.get('drawn', {}))}",
+            f" with {was['master']} in charge, {seed_words(was)}",
         ),
         Text(request.words),
         "",
@@ -269,7 +269,7 @@ def _column(found: dict[str, Any], was: dict[str, Any], now: dict[str, Any]) -> 
 def comparison_data(request: Request, compared: Compared) -> dict[str, Any]:
     """The contents of `--json`; `differs` has the first tick of each kind of number, the earliest first."""
     was, now = compared.was.found, compared.now.found
-    of_both = {name: was[name] for name in ("task", "master", "seed")}
+    of_both: dict[str, Any] = {name: was[name] for name in ("task", "master", "seed", "robot") if name in was}
     was, now = ({name: value for name, value in found.items() if name not in of_both} for found in (was, now))
     differs = [each.as_data() for each in compared.differences]
     return {**of_both, **_asked(request), "differs": differs, "as_it_was": was, "changed": now}

@@ -10,7 +10,11 @@ from mindlang import environments
 
 @pytest.mark.parametrize(
     ("name", "module", "package"),
-    [("register", "registration", "gymnasium"), ("StableBaselinesEnv", "stable_baselines", "stable_baselines3")],
+    [
+        ("register", "registration", "gymnasium"),
+        ("ParallelTask", "parallel_task", "pettingzoo"),
+        ("StableBaselinesEnv", "stable_baselines", "stable_baselines3"),
+    ],
 )
 def test_an_extra_that_is_missing(monkeypatch: pytest.MonkeyPatch, name: str, module: str, package: str) -> None:
     if package != "gymnasium":

@@ -52,11 +52,15 @@ def _imported(code: str) -> Iterator[str]:
         match node:
             case ast.Import(names=names):
                 modules = [name.name for name in names]
-            case ast.ImportFrom(module=str(module)):
-                modules = [module]
+            case ast.ImportFrom(module=str(module), names=names):
+                modules = [module, *(f"{module}.{name.name}" for name in names)]
             case _:
                 continue
         yield from (EXTRAS.get(module, module.partition(".")[0]) for module in modules)
 
 
-EXTRAS = {"mindlang.torch": "torch", "mindlang.environments": "gymnasium"}
+EXTRAS = {
+    "mindlang.torch": "torch",
+    "mindlang.environments": "gymnasium",
+    "mindlang.environments.ParallelTask": "pettingzoo",
+}

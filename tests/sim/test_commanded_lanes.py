@@ -3,22 +3,26 @@
 from collections.abc import Callable
 
 import numpy as np
+import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
+from mindrun.errors import MindError
 from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores
 from mindrun.graph.weights import reachable, weights_of
 from mindrun.kinds.functions.function import Stateful
 from mindrun.sim.codes import FAR
-from mindrun.sim.commanded_lanes import CommandedLanes, commanded_lanes
+from mindrun.sim.commanded_lanes import CommandedLanes, CommandedWorld, commanded_lanes
 from mindrun.sim.rollout import Rollout
 
 from mindlang.compiler.compile import load
 from tests.draws import cases
 from tests.hierarchies import PROCEDURES, SCALES
+from tests.sim.minds import compile_text
 from tests.sim.test_random_worlds import SLOW, Weights, weights_for
 from tests.sim.test_rollout import COLLECT
+from tests.sim.test_teams import TOGETHER
 from tests.sim.worlds import random_world
 
 SEEDS = [3, 2**64 - 1, 0, 7, 11]
@@ -58,7 +62,7 @@ def player(skill: Skill, weights: Weights, row: int) -> Think:
     compute = skill.function.ready(len(skill.inputs), skill.outputs, weights_of(skill, weights), {})
 
     def think(lanes: CommandedLanes) -> None:
-        inputs = lanes.state.mind.readings[list(skill.inputs), : lanes.count].T
+        inputs = lanes.state.mind.readings[list(skill.inputs), : lanes.lanes].T
         with np.errstate(all="ignore"):
             lanes.play(row, np.array([compute(np.ascontiguousarray(each)) for each in inputs], np.float32))
 
@@ -96,18 +100,74 @@ def test_runs_are_those_of_a_rollout(graph: Graph, scale: float, seed: int, coun
         run_all(lanes, player(skill, weights, row), checked(lanes, scores))
 
 
+CROWD = """task Crowd in arena size 14
+  contains mate is robot count 2
+  contains object is item size 1
+  lasts 200 ticks
+  rewards progress toward object per tick
+  rewards 0.3 on collision with mate
+  rewards -1 on collision
+  ends on 2 collision with mate
+"""
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_runs_of_several_robots_are_those_of_a_rollout(count: int) -> None:
+    rollout = Rollout(Policy(compile_text(TOGETHER + CROWD), {}), "Crowd", "Drift")
+    scores, ends = rollout.score(np.zeros((1, 0), np.float32), SEEDS), set()
+    lanes = CommandedLanes(rollout, count)
+    right = checked(lanes, scores)
+
+    def check(run: int, lane: int) -> None:
+        right(run, lane)
+        paid = lanes.paid.reshape(count, 3)[lane]
+        assert paid.mean() == pytest.approx(lanes.scores[lane])
+        assert len({*paid}) > 1
+        ends.add(int(lanes.ended_by[lane]))
+
+    run_all(lanes, whole, check)
+    assert ends == {0, -1}
+
+
+@pytest.mark.parametrize("count", [3, 1])
+def test_a_run_has_ended_where_one_of_its_robots_is_beyond_all_places(count: int) -> None:
+    lanes = commanded_lanes(compile_text(TOGETHER + CROWD), "Crowd", "Drift", count)
+    ahead = np.tile(np.array([0.9, 0.8, 0.0], np.float32), (lanes.lanes, 1))
+    lost, robot = np.arange(count) == count // 2, 3 * (count // 2) + 1
+    lanes.begin(np.ones(count, np.bool_), SEEDS[:count])
+    for tick in range(40):
+        if tick == 39:
+            lanes.state.world.body[0, robot] = 2 * FAR
+        lanes.sense()
+        lanes.command(ahead)
+        lanes.act()
+    assert lanes.terminated.tolist() == lost.tolist()
+    assert lanes.ended_by.tolist() == np.where(lost, -2, -1).tolist()
+    assert lanes.paid.reshape(count, 3).mean(axis=1) == pytest.approx(lanes.scores)
+    assert len({*lanes.paid}) == (7 if count > 1 else 3)  # where another run has its lanes, robots are not known apart
+    lanes.begin(lost, [9])
+    assert not lanes.terminated.any()
+    assert lanes.state.world.tick.tolist() == np.repeat(np.where(lost, 0, 40), 3).tolist()
+
+
+def test_a_single_engine_commands_no_world_of_several_robots() -> None:
+    with pytest.raises(MindError, match=r"^Crowd has 3 robots, and only one can be commanded here$"):
+        CommandedWorld(compile_text(TOGETHER + CROWD), "Crowd", 1)
+
+
 def driven(lanes: CommandedLanes, ticks: int, aside: bool) -> np.ndarray:
     """What is read in so many ticks under some commands."""
-    commands = np.random.default_rng(1).random((ticks, lanes.count, 2)).astype(np.float32)
-    found = []
+    actuators = len(lanes.rollout.graph.actuators)
+    commands = np.random.default_rng(1).random((ticks, lanes.lanes, actuators)).astype(np.float32)
+    found, runs = [], np.arange(lanes.count) % 2 == 1
     for now in commands:
         if aside:
-            seen = lanes.sensed_aside(np.arange(lanes.count) % 2 == 1)
-            expected = seen.mind.readings[:, : lanes.count // 2].copy()
+            seen = lanes.sensed_aside(runs)
+            expected = seen.mind.readings[:, : lanes.lanes // 2].copy()
         lanes.sense()
-        found.append(lanes.state.mind.readings[:, : lanes.count].copy())
+        found.append(lanes.state.mind.readings[:, : lanes.lanes].copy())
         if aside:
-            assert np.array_equal(expected, found[-1][:, 1::2])
+            assert np.array_equal(expected, found[-1][:, np.repeat(runs, lanes.robots)])
         lanes.command(now)
         lanes.act()
     return np.array(found)
@@ -116,9 +176,10 @@ def driven(lanes: CommandedLanes, ticks: int, aside: bool) -> np.ndarray:
 def test_what_is_sensed_aside_is_what_would_be_sensed_and_changes_nothing() -> None:
     graph = load(COLLECT.with_name("ball.mind")).graph
     assert graph
-    readings = [driven(commanded_lanes(graph, "Reach", graph.master, 6), 200, aside) for aside in (False, True)]
-    assert np.array_equal(*readings)
-    assert (readings[0] != readings[0][0]).any()
+    for mind, task in ((graph, "Reach"), (compile_text(TOGETHER + CROWD), "Crowd")):
+        readings = [driven(commanded_lanes(mind, task, mind.master, 6), 200, aside) for aside in (False, True)]
+        assert np.array_equal(*readings, equal_nan=True)
+        assert (readings[0] != readings[0][0]).any()
 
 
 def test_a_robot_beyond_all_places_has_ended_and_the_next_run_is_right() -> None:

@@ -1,6 +1,7 @@
 """Several robots in one world: their contacts are Chipmunk's, and who is which of them changes nothing but names."""
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import pymunk
@@ -197,3 +198,15 @@ def test_an_end_for_one_robot_ends_the_run_of_all_unless_it_is_paid_nothing(paid
     assert scores.ticks.tolist() == [[1, 1] if paid else [40, 40]]
     assert scores.by_event[0, 0].tolist() == ([1, 0] if paid else [0, 0])
     assert scores.by_line[0, 0].tolist() == ([0.0, 0.5, 0.0] if paid else [0.0, 0.0, 0.0])
+
+
+def test_each_robot_has_procedures_that_remember_for_it_alone(tmp_path: Path) -> None:
+    (tmp_path / "own.py").write_text(
+        "seen = []\n\n\ndef count(away):\n    seen.append(away)\n    return [len(seen) / 100]\n"
+    )
+    skills = "skill Go is procedure from own.count\n  reads away\n  drives call\n"
+    task = "  contains mate is robot count 2\n  contains gem is item\n  rewards heard per tick\n"
+    text = f"{BODY}{skills}task Go in plain\n{task}  lasts 10 ticks\n"
+    rollout = Rollout(Policy(compile_text(text), {}), "Go", "Go", procedures=tmp_path)
+    scores = rollout.score(np.zeros((1, 0), np.float32), [1])
+    assert scores.total[0, 0] == pytest.approx(sum(range(10)) / 100)

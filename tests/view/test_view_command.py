@@ -86,7 +86,7 @@ def test_an_error_that_is_no_port_s_says_nothing_about_ports(rules: Path) -> Non
         (["day.rec", "ball.bundle", "--follow", "--export", "x.html"], "--export is of what has an end"),
         (["x.mind", "--follow"], "--follow is for a recording and its bundle"),
         ([".", "--export", "x.html"], "--break and --export are of a run or a recording, not of trainings."),
-        ([".", "ball.bundle"], "BUNDLE, --task, --master, --no-interruption, --break and --export are of a run"),
+        ([".", "ball.bundle"], "BUNDLE, --task, --master, --robot, --no-interruption, --break and --export are of"),
     ],
 )
 def test_an_option_of_which_nothing_would_come_is_refused(

@@ -17,9 +17,10 @@ interface Parts {
   hierarchy: Hierarchy;
   world: World | null;
   follow: () => void;
+  nextRobot: () => void;
 }
 
-export function keysOf({ playback, timeline, hierarchy, world, follow }: Parts, search: () => void, help: () => void): Key[] {
+export function keysOf({ playback, timeline, hierarchy, world, follow, nextRobot }: Parts, search: () => void, help: () => void): Key[] {
   const to = (direction: 1 | -1) => {
     const found = timeline.next(playback.tick, direction);
     if (found) playback.jump(found.tick);
@@ -40,6 +41,7 @@ export function keysOf({ playback, timeline, hierarchy, world, follow }: Parts, 
     { keys: ["Z"], shown: "shift z", says: "hierarchy smaller", act: () => hierarchy.zoom(1 / ZOOM) },
     { keys: ["0"], shown: "0", says: "show all of both", act: () => (hierarchy.fit(), world?.fit()) },
     { keys: ["f"], shown: "f", says: "stay with the robot, or no more", act: follow },
+    { keys: ["r"], shown: "r", says: "of several robots, the mind of the next; or click one", act: nextRobot },
     { keys: ["t"], shown: "t", says: "light or dark", act: () => element("theme").click() },
     { keys: ["/"], shown: "/", says: "search", act: search },
     { keys: ["?"], shown: "?", says: "this help", act: help },

@@ -31,12 +31,12 @@ function show(about: About, send: Send): void {
     else if (wasLost) view.playback.jump(tick);
     return;
   }
+  const watched = view?.watchedIn(about); // the same run through a robot with another mind
   view?.leave();
-  if (about.training) {
-    const fresh = (untouched ??= document.body.cloneNode(true) as HTMLElement).cloneNode(true) as HTMLElement;
-    if (view) document.body.replaceWith(fresh);
-  }
+  const fresh = (untouched ??= document.body.cloneNode(true) as HTMLElement).cloneNode(true) as HTMLElement;
+  if (view) document.body.replaceWith(fresh);
   view = new View(about, send, trainings, follows);
+  if (watched) view.playback.resume(watched.tick, watched.plays);
 }
 
 function closed(reason: string): void {

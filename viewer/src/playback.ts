@@ -28,6 +28,11 @@ export class Playback {
     return Math.floor(this.position / this.every) * this.every;
   }
 
+  /** The tick that was asked for, where it is not known yet. */
+  get sought(): number {
+    return this.target ?? this.tick;
+  }
+
   /** Only every so many ticks are shown, a power of two: one, but where a picture comes later than the next tick. */
   get every(): number {
     const ticks = this.rate / this.tickSeconds / PICTURES_PER_SECOND;
@@ -96,6 +101,12 @@ export class Playback {
     this.target = tick > this.known && !this.over ? Math.round(tick) : null;
     this.position = Math.min(Math.max(0, Math.round(tick)), this.known);
     this.changed();
+  }
+
+  /** Goes to a tick of what has begun anew, and on from there if it was playing. */
+  resume(tick: number, playing: boolean): void {
+    this.jump(tick);
+    this.playing = playing;
   }
 
   /** Goes to the newest tick, and stays with it while the run goes on. */

@@ -80,6 +80,7 @@ export interface Thing {
   shape: "disc" | "square" | "area";
   light: string;
   dark: string;
+  robot: number | null; // which one it is, if it is one
 }
 
 export interface World {
@@ -100,6 +101,8 @@ export interface About {
   source: "simulation" | "recording" | "robot" | "training" | "environment" | "driven";
   training?: Playing;
   seed: string | null;
+  robot: number; // through which one the run is seen
+  robots: number; // of how many
   edits: boolean;
   orders: Order[]; // that whoever sees this may say
   drive: Grip[]; // that whoever sees this may drive

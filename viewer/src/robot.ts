@@ -28,7 +28,7 @@ export function drawRobot(
     jets(pen);
     claw(pen);
   }
-  body(pen);
+  body(context, robot, theme.robot, theme, pixel);
   wheels(pen);
   if (row.tick > 0) {
     bearings(pen);
@@ -89,13 +89,31 @@ function rimAlong(robot: Robot, [ahead, aside]: number[]): number {
   return 1 / Math.max(Math.abs(ahead) / robot.front, Math.abs(aside) / robot.side);
 }
 
-function body({ context, robot, theme, pixel }: Pen): void {
+/** Draws another one where it is, so many times as large: of what it senses and does nothing is known here. */
+export function drawOther(
+  context: CanvasRenderingContext2D,
+  robot: Robot,
+  [x, y, angle]: [number, number, number],
+  larger: number,
+  colour: string,
+  theme: Theme,
+  pixel: number,
+): void {
+  context.save();
+  context.translate(x, y);
+  context.rotate(angle);
+  context.scale(larger, larger);
+  body(context, robot, colour, theme, pixel / larger);
+  context.restore();
+}
+
+function body(context: CanvasRenderingContext2D, robot: Robot, colour: string, theme: Theme, pixel: number): void {
   context.beginPath();
   if (robot.outline.length) {
     for (const [x, y] of robot.outline) context.lineTo(x, y);
     context.closePath();
   } else context.arc(0, 0, robot.radius, 0, 2 * Math.PI);
-  context.fillStyle = theme.robot;
+  context.fillStyle = colour;
   context.fill();
   context.lineWidth = 1.2 * pixel;
   context.strokeStyle = theme.floor;

@@ -3,6 +3,6 @@
 import type { About } from "./protocol";
 
 export function shapeOf(about: About): string {
-  const { title, seed, edits, training, world, links, ...shape } = about;
+  const { title, seed, robot, edits, training, world, links, ...shape } = about;
   return JSON.stringify({ ...shape, world: world && { ...world, boxes: null } });
 }

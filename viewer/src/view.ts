@@ -71,7 +71,7 @@ export class View {
     const jump = (tick: number) => this.playback.jump(tick);
     this.rows = new Rows(about, 0, send, redraw);
     this.playback = new Playback(about.tick, (tick, ahead, every) => !!this.rows.row(tick, ahead, every), redraw, (tick) => this.want(tick), about.of_ticks);
-    this.world = about.world && new World(element<HTMLCanvasElement>("world"), about, about.world, theme(), redraw);
+    this.world = about.world && new World(element<HTMLCanvasElement>("world"), about, about.world, theme(), redraw, (robot) => this.watch(robot));
     this.seen = new Seen(about, send, redraw);
     const shows = { over: (at: Selected, event: PointerEvent) => this.selection.point(at, event), chosen: (at: Selected) => this.choose(at) };
     this.hierarchy = new Hierarchy(svgElement("hierarchy"), element<HTMLCanvasElement>("edges"), about, shows, redraw);
@@ -89,7 +89,7 @@ export class View {
     const followed = (newest: boolean) => (follows.newest = newest);
     this.learning = about.training ? new Learning(about, trainings, send, theme(), follows.newest, followed) : null;
     this.transport = new Transport(this.playback, this.timeline, about.tick, about.source in LIVE);
-    const parts = { ...this.parts(), follow: () => this.follow() };
+    const parts = { ...this.parts(), follow: () => this.follow(), nextRobot: () => this.nextRobot() };
     showTitle(about);
     listenToButtons(parts);
     const keys = keysOf(parts, () => search.focus(), () => element<HTMLDialogElement>("keys").showModal());
@@ -106,6 +106,7 @@ export class View {
   /** Goes on with another run that differs only in what it comes to; false where it is of another shape. */
   restart(about: About): boolean {
     if (shapeOf(about) !== shapeOf(this.about)) return false;
+    const watched = this.watchedIn(about);
     const plays = this.playback.playing || (this.playback.over && this.playback.tick >= this.playback.known);
     const follows = about.source in LIVE && (plays || this.playback.following);
     if (about.world) Object.assign(this.about.world!, about.world);
@@ -115,9 +116,26 @@ export class View {
     this.learning?.restarted();
     showTitle(about);
     this.want(FIRST_TICKS);
-    if (follows) this.playback.end();
+    if (watched) this.playback.resume(watched.tick, watched.plays);
+    else if (follows) this.playback.end();
     else if (plays) this.playback.play();
     return true;
+  }
+
+  /** The tick that is shown, and whether it plays on, where this is the same run through another robot. */
+  watchedIn({ seed, robot }: About): { tick: number; plays: boolean } | undefined {
+    if (seed !== this.about.seed || robot === this.about.robot) return undefined;
+    return { tick: this.playback.sought, plays: this.playback.playing };
+  }
+
+  /** Asks for the run as another robot of its world has it. */
+  private watch(robot: number): void {
+    this.send({ say: "watch", robot });
+  }
+
+  private nextRobot(): void {
+    const { robot, robots } = this.about;
+    if (robots > 1) this.watch((robot + 1) % robots);
   }
 
   /** This page shows something else now. */

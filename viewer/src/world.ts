@@ -6,7 +6,7 @@ import { drawFloor, WALL_UNITS } from "./floor";
 import { shown } from "./names";
 import { type About, columnOf, type Column, type Thing, type World as WorldData } from "./protocol";
 import type { Beside } from "./forks";
-import { drawRobot } from "./robot";
+import { drawOther, drawRobot } from "./robot";
 import { type Row, type Rows, valueAt } from "./rows";
 import type { Theme } from "./theme";
 
@@ -17,15 +17,17 @@ const COLLISION_MARKS = 60;
 const FREE_VIEW_UNITS = 60; // what is seen where there are no walls
 const NAME_PIXELS = 14;
 const THING_PIXELS_MIN = 7; // smaller ones are drawn as large
-const ROBOT_PIXELS_MIN = 6; // of its radius: a smaller one has a ring around it
+const ROBOT_PIXELS_MIN = 6; // of its radius: a smaller one has a ring around it, and others are drawn as large
 const RING_PIXELS = 13;
 const THING_COLUMNS = 4; // x, y, size, turned
+const CLICK_PIXELS = 12; // so near to the middle of another robot it is meant
 
 export class World {
   private readonly camera: Camera;
   private readonly context: CanvasRenderingContext2D;
   private readonly held: Column | null;
   private follows = false;
+  private row: Row | undefined; // that is drawn
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -33,11 +35,19 @@ export class World {
     private readonly world: WorldData,
     private theme: Theme,
     changed: () => void,
+    watch: (robot: number) => void,
   ) {
     this.context = canvas.getContext("2d")!;
     this.held = columnOf(about, "held");
     this.camera = new Camera(canvas, MARGIN, changed);
     canvas.addEventListener("dblclick", () => this.fit());
+    canvas.addEventListener("pointermove", (event) => {
+      canvas.style.cursor = this.robotAt(event) === null ? "" : "pointer";
+    });
+    canvas.addEventListener("click", (event) => {
+      const robot = this.camera.dragged ? null : this.robotAt(event);
+      if (robot !== null) watch(robot);
+    });
     this.follows = world.arena === null;
   }
 
@@ -74,6 +84,7 @@ export class World {
   draw(row: Row, rows: Rows, collisions: Events, beside?: Beside): void {
     const { context, canvas, camera, theme } = this;
     const [x, y] = this.pose(row);
+    this.row = row;
     if (this.follows) {
       camera.x = canvas.clientWidth / 2 - x * camera.scale;
       camera.y = canvas.clientHeight / 2 + y * camera.scale;
@@ -102,6 +113,17 @@ export class World {
     return [row.doubles[first], row.doubles[first + 1], row.doubles[first + 2]];
   }
 
+  /** The other robot that is drawn there, by its number. */
+  private robotAt({ offsetX, offsetY }: MouseEvent): number | null {
+    const { camera, row } = this;
+    let [found, nearest]: [number | null, number] = [null, Math.max(CLICK_PIXELS, this.world.robot.radius * camera.scale)];
+    for (const [thing, [x, y]] of row ? this.eachThing(row) : []) {
+      const far = Math.hypot(camera.x + x * camera.scale - offsetX, camera.y - y * camera.scale - offsetY);
+      if (thing.robot !== null && far <= nearest) [found, nearest] = [thing.robot, far];
+    }
+    return found;
+  }
+
   private *eachThing(row: Row): Iterable<[Thing, number[], boolean]> {
     const first = this.about.columns.things?.[1] ?? 0;
     const held = valueAt(row, this.held);
@@ -120,6 +142,11 @@ export class World {
     const { context, theme, camera } = this;
     for (const [thing, [x, y, width, turned], isHeld] of this.eachThing(row)) {
       if ((thing.shape === "area") !== areas) continue;
+      if (thing.robot !== null) {
+        const larger = Math.max(1, ROBOT_PIXELS_MIN / (this.world.robot.radius * camera.scale));
+        drawOther(context, this.world.robot, [x, y, turned || 0], larger, this.colour(thing), theme, 1 / camera.scale);
+        continue;
+      }
       const size = Math.max(width, THING_PIXELS_MIN / camera.scale);
       context.save();
       context.translate(x, y);
@@ -203,7 +230,8 @@ export class World {
     context.lineWidth = 3;
     const taken: [left: number, top: number, half: number][] = []; // no name is written over another
     for (const [thing, [x, y, size], isHeld] of this.eachThing(row)) {
-      const text = isHeld ? `${shown(thing.name, 24)} (held)` : shown(thing.name, 24);
+      const name = thing.robot === null ? shown(thing.name, 24) : `robot ${thing.robot}`;
+      const text = isHeld ? `${name} (held)` : name;
       const left = camera.x + x * camera.scale;
       const top = camera.y - (y + size / 2) * camera.scale - 6;
       const half = context.measureText(text).width / 2;

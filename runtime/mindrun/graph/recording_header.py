@@ -15,8 +15,9 @@ from mindrun.files.strict_json import are_names, is_whole, parsed
 from mindrun.graph.codec import decode, encode
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.named_readings import physical
-from mindrun.graph.tasks import things_of
+from mindrun.graph.tasks import robots_in, things_of
 from mindrun.graph.validate import MAX_SEED, MAX_TICK_SECONDS, MIN_TICK_SECONDS
+from mindrun.kinds.registry import left_out
 from mindrun.numbers.arrays import Doubles
 from mindrun.numbers.quantity import NUMBER, SECONDS, Quantity
 
@@ -62,7 +63,8 @@ class RecordedWorld:
     """The simulated world of a recording: the task and the seed that it is of, and how many columns there are of it.
 
     `boxes` [n] are its obstacles, x, y and half of both sides, `begin` the pose and then each thing as the recording
-    begins; None is what is nowhere.
+    begins; None is what is nowhere. Of several robots in the world the rows are of one, by its number from 0 on: they
+    have its pose and its claw, what it senses, thinks and sends, and what it is paid.
     """
 
     task: str
@@ -72,16 +74,17 @@ class RecordedWorld:
     events: Annotated[int, COLUMNS]
     boxes: Annotated[tuple[tuple[float, float, float, float] | None, ...], NUMBER]
     begin: Annotated[tuple[float | None, ...], NUMBER]
+    robot: Annotated[int, COLUMNS] = left_out(0)
 
     @classmethod
-    def of(cls, task: Task, seed: int, boxes: Doubles, begin: Sequence[float]) -> Self:
+    def of(cls, task: Task, seed: int, boxes: Doubles, begin: Sequence[float], robot: int = 0) -> Self:
         """The world of a run of a task, with its obstacles [boxes, 4] and what `begin` has."""
         things = (len(begin) - POSE_COLUMNS) // THING_COLUMNS
         there = tuple(float(number) if abs(number) < NUMBER.high else None for number in begin)
         standing = tuple(
             (x, y, half_x, half_y) if abs(x) < NUMBER.high else None for x, y, half_x, half_y in boxes.tolist()
         )
-        return cls(task.name, seed, things, len(task.rewards), len(task.events), standing, there)
+        return cls(task.name, seed, things, len(task.rewards), len(task.events), standing, there, robot)
 
     @property
     def row(self) -> np.dtype[Any]:
@@ -121,14 +124,14 @@ class About:
                 f"this was recorded with another bundle ({self.bundle[:8]}…, not {bundle[:8]}…)",
                 "take the bundle that was running",
             )
-        worlds = [(task.name, world_row_of(task)) for task in graph.tasks]
+        worlds = [(task.name, world_row_of(task), n) for task in graph.tasks for n in range(robots_in(task))]
         expected = replace(About.of(graph, bundle, self.master, self.sensors), world=self.world, by_hand=self.by_hand)
         if (
             self != expected
             or not {*self.by_hand} <= {*self.actuators, *self.skills}
             or self.master not in self.skills
             or not set(self.sensors) <= physical(graph).keys()
-            or (self.world and (self.world.task, self.world.row) not in worlds)
+            or (self.world and (self.world.task, self.world.row, self.world.robot) not in worlds)
         ):
             raise RecordingError("this has other columns than its bundle: it was recorded by something else")
 

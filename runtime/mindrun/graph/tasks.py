@@ -31,6 +31,17 @@ def installed_version(package: str) -> str:
         return ""
 
 
+def masters_in(task: Task, master: str) -> list[str]:
+    """The skill in charge of each robot in the world of a task, where `master` is of the first."""
+    others = (thing for thing in task.things if thing.kind.is_robot)
+    return [master, *(thing.master or master for thing in others for _ in range(thing.kind.copies))]
+
+
+def robots_in(task: Task) -> int:
+    """The number of robots in the world of a task: the first, and those that it contains."""
+    return len(masters_in(task, ""))
+
+
 def default_task(graph: Graph) -> tuple[Task, str]:
     """The task to run where none is named, and a sentence why it is this one; "" where that goes without saying."""
     tasks = {task.name: task for task in graph.tasks}

@@ -47,6 +47,11 @@ def robot_rows(task: Task) -> list[int]:
     return [own, *others]
 
 
+def robot_numbers(task: Task) -> dict[int, int]:
+    """The number of the robot that each row of `things_of` that is one; in its own world it is nowhere."""
+    return {row: number for number, row in enumerate(robot_rows(task)) if row >= 0}
+
+
 def paid_robots(task: Task) -> int:
     """The number of robots of a task's world to which happens what counts."""
     things = things_of(task)

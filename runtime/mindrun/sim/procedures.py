@@ -100,10 +100,10 @@ def compute_arrays(function: Any, row: Any, tables: Any, mind: Any, count: int) 
 
 @dataclass(frozen=True, slots=True)
 class Memories:
-    """The procedures of every run that goes on: each has modules of its own, as on a robot that has just started."""
+    """The procedures of every run that goes on: each robot has modules of its own, as one that has just started."""
 
     procedures: Procedures
-    functions: dict[tuple[str, int], Callable[..., Any]] = field(default_factory=dict)
+    functions: dict[tuple[str, int, int], Callable[..., Any]] = field(default_factory=dict)
 
     def run(self, skill: str, row: Any, tables: Any, state: Any, count: int) -> None:
         """Call a skill's function for what `count` lanes have gathered; its outputs are the first rows of `hidden`."""
@@ -114,7 +114,8 @@ class Memories:
         for k in range(count):
             inputs = mind.gathered[: row["inputs"], k]
             if np.isfinite(inputs).all():
-                function = self._of(skill, int(state.run.job[mind.active[k]]))
+                lane = int(mind.active[k])
+                function = self._of(skill, int(state.run.job[lane]), lane % len(tables.robots))
                 mind.hidden[:outputs, k] = procedure_call.call(self.procedures.calls[skill], function, outputs, inputs)
 
     def forget(self, but: set[int]) -> None:
@@ -122,7 +123,7 @@ class Memories:
         for key in [key for key in self.functions if key[1] not in but]:
             del self.functions[key]
 
-    def _of(self, skill: str, job: int) -> Callable[..., Any]:
-        if (skill, job) not in self.functions:
-            self.functions[skill, job] = self.procedures.function(skill)
-        return self.functions[skill, job]
+    def _of(self, skill: str, job: int, robot: int) -> Callable[..., Any]:
+        if (skill, job, robot) not in self.functions:
+            self.functions[skill, job, robot] = self.procedures.function(skill)
+        return self.functions[skill, job, robot]

@@ -214,7 +214,8 @@ class Jobs(Block):
     ended: Array = shape("jobs")
     met: Array = shape("jobs")  # the end that came first, whatever ended the run
     faults: Array = shape("jobs")
-    doubles: Array = shape(0, 0, kind=F8)  # the first lane after each tick, in as many as there is room for
+    watched: Array = shape(1)  # which robot of the first world is written down
+    doubles: Array = shape(0, 0, kind=F8)  # its world after each tick, in as many as there is room for
     singles: Array = shape(0, 0, kind=F4)  # its mind (lanes/advance)
     recorded: Array = shape(1)  # how many ticks have been written down
 

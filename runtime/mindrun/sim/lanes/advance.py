@@ -50,7 +50,7 @@ def conclude(tables: Tables, state: State, jobs: Jobs, interrupt: int) -> None:
     """Judge a step, record it where there is room, and recall; then end the runs that are over."""
     lanes, clock, world = jobs.lanes[0], jobs.clock[0], state.world
     judge(tables, state, lanes, clock, interrupt)
-    record(state, jobs)
+    record(tables, state, jobs)
     recall(tables, state, lanes)
     for row in range(len(tables.actuators)):
         for lane in range(lanes):
@@ -65,27 +65,41 @@ def conclude(tables: Tables, state: State, jobs: Jobs, interrupt: int) -> None:
 
 
 @unit_where(seldom)
-def record(state: State, jobs: Jobs) -> None:
-    """Write a row of what the first lane's world and mind are after a tick, where there is room for one.
+def record(tables: Tables, state: State, jobs: Jobs) -> None:
+    """Write a row of what the world and the mind of the watched robot are after a tick, where there is room for one.
 
     Before the memory cells recall: a row has them as the skills read them.
     """
     if jobs.recorded[0] == len(jobs.singles):
         return
     wide, narrow = recorded(state)
-    row = jobs.doubles[jobs.recorded[0]]
+    row, lane = jobs.doubles[jobs.recorded[0]], jobs.watched[0]
     at = 0
     for rows in wide:
-        at = copy(rows, row, at)
-    row[at], row[at + 1], row[at + 2] = state.world.held[0], state.world.battery[0], state.contact.touching[0] & 1
+        at = copy(rows, row, at, lane)
+    row[at], row[at + 1], row[at + 2] = (
+        state.world.held[lane],
+        state.world.battery[lane],
+        state.contact.touching[lane] & 1,
+    )
+    add_robots(tables, state.world, row, at + 3, lane)
     at = 0
     for rows in narrow:
-        at = copy(rows, jobs.singles[jobs.recorded[0]], at)
+        at = copy(rows, jobs.singles[jobs.recorded[0]], at, lane)
     jobs.recorded[0] += 1
 
 
-def copy(rows, target, at):
-    """Copy the first lane of all rows into `target` from `at` on; return where the next ones begin."""
+def copy(rows, target, at, lane):
+    """Copy a lane of all rows into `target` from `at` on; return where the next ones begin."""
     for row in range(len(rows)):
-        target[at + row] = rows[row, 0]
+        target[at + row] = rows[row, lane]
     return at + len(rows)
+
+
+def add_robots(tables, world, row, at, lane):
+    """Write the angle of each robot, and where what another one holds is, which is nowhere in the lane's own world."""
+    for other in range(len(tables.robots)):
+        row[at + other] = world.body[ANGLE, other]
+        if other != lane and world.held[other] >= 0:
+            place = len(world.body) + THING_ROWS * world.held[other]
+            row[place + X], row[place + Y] = place_of(world.things, world.held[other], other)
