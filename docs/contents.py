@@ -12,7 +12,7 @@ PAGES: Mapping[str, Mapping[str, Sequence[str]]] = {
     INDEX: {
         "Begin": ["../README", "install", "new", "tutorial", "tour", "guides/*"],
         "Reference": [*LANGUAGE, "kinds", "words", "codes", "commands", "lint", "edits", "python*", "glossary"],
-        "Teach": ["learning", "showing", "propose", "audit", "falsify"],
+        "Teach": ["learning", "several-robots", "showing", "propose", "audit", "falsify"],
         "Train and measure": ["lifelong", "logs", "cluster", "locks", "weights", "gymnasium"],
         "See and ask": ["view", "why", "whatif", "breakpoints", "proofs"],
         "On the robot": ["robot", "robot-yaml", "drivers", "safety", "deploy"],

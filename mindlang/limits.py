@@ -77,7 +77,8 @@ def refuse_too_long(rollout: "Rollout", runs: int) -> None:
 
 def bytes_of(rollout: "Rollout", genomes: int, layouts: int) -> int:
     """The bytes of a rollout: its lanes, and the genomes with their parents and copies of both."""
-    lanes = min(genomes * layouts, rollout.workers * rollout.lanes)
+    robots = len(rollout.tables.robots)
+    lanes = min(genomes * layouts, rollout.workers * max(1, rollout.lanes // robots)) * robots
     rays, things, loose = len(rollout.tables.ray_row), len(rollout.tables.things), len(rollout.tables.loose)
     each = LANE_BYTES + 4 * rays + 48 * things + LOOSE_BYTES * loose + sum(_parts(rollout.sizes).values())
     return lanes * each + GENOME_COPIES * genomes * 4 * rollout.genome_length

@@ -1,6 +1,6 @@
 """The world of a task when a run begins: the things that overlap, and those that the robot has reached already.
 
-One rule for each two of all that has a place: **bodies** (the robot, items, boxes, balls, walkers) take up room, what
+One rule for each two of all that has a place: **bodies** (robots, items, boxes, balls, walkers) take up room, what
 is **fixed** (obstacles, walls, maps) does, too, and what lies on the **floor** (zones, powers) takes up none. Two
 bodies are never in one place, nor is a body in what is fixed, nor the middle of what lies on the floor. All else may
 be: walls cross, a zone lies under a box.
@@ -110,7 +110,9 @@ class Beginning:
         return [rectangle_outline(Rectangle(*place, half, half)) for place in places]
 
     def half(self, kind: ThingKind) -> float:
-        """Half of the size with which a thing begins."""
+        """Half of the size with which a thing begins; of a robot, which faces anywhere, the disc in it or around it."""
+        if kind.is_robot:
+            return self.robot_radius
         return kind.begins[1 if self.may else 0] / 2
 
     @property
@@ -124,7 +126,14 @@ class Beginning:
             (x, y), c, s = self.at, cos(self.facing), sin(self.facing)
             turned = ((x + c * ahead - s * aside, y + s * ahead + c * aside) for ahead, aside in self.body.outline)
             return Outline(tuple(turned))
-        return Outline((self.at,), self.body.radius if self.may else min(self.body.side, self.body.front))
+        return Outline((self.at,), self.robot_radius)
+
+    @property
+    def robot_radius(self) -> float:
+        """The radius of the disc in the robot's body, or with `may` around it; 0 of a body that is not known."""
+        if self.body is None:
+            return 0.0
+        return self.body.radius if self.may else min(self.body.side, self.body.front)
 
     @property
     def is_inside(self) -> bool:

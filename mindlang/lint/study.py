@@ -193,9 +193,10 @@ class Study:
     def _world(self, task: Task) -> AnalysedWorld:
         solid = [thing for thing in task.things if thing.kind.is_solid]
         loose = frozenset(thing.name for thing in solid if thing.kind.is_loose)
+        fixed = [thing for thing in solid if not (thing.kind.is_loose or thing.kind.is_robot)]
         items = (thing for thing in task.things if thing.kind.can_be_held)
         fleeting = frozenset(thing.name for thing in items if thing.kind.outcomes.get("reached", STAYS) != STAYS)
-        is_solid, has_fixed = task.scene.is_bounded or bool(solid), task.scene.is_bounded or len(solid) > len(loose)
+        is_solid, has_fixed = task.scene.is_bounded or bool(solid), task.scene.is_bounded or bool(fixed)
         return AnalysedWorld(self, _named([task]), is_solid, has_fixed, _charges([task]), loose, fleeting)
 
     @cached_property

@@ -101,6 +101,7 @@ THINGS = [
         *("cat is walker seeks robot", "cat is walker flees robot range 9", "cat is walker seeks cat range 20"),
         "cat is walker flees cat",
     ],
+    ["mate is robot", "mate is robot at -12.5 -7.5", "mate is robot at -12.5 -7.5 or 12.5 12.5"],
 ]
 DRAWN = [
     [
@@ -137,6 +138,7 @@ REWARDS = [
     ["rewards -0.1 * distance of ball to nest per tick", "rewards -0.1 * distance of coin to ball per tick"],
     ["rewards 5 on reach of nest by ball", "rewards 5 on reach of ball by coin", "rewards 5 on leave of dock"],
     ["rewards -5 on leave of nest by ball", "rewards -5 on leave of dock by coin"],
+    ["rewards -20 on collision with mate", "rewards 1 on reach of mate within 2 s of collision with mate"],
     ["rewards 50 on delivery of ball", "rewards 50 on delivery of coin to nest"],
     [
         "rewards 7 on reach of nest within 2 s of reach of dock",

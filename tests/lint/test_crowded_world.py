@@ -22,6 +22,8 @@ WORLDS = [
     BINS.format(60, 1).replace("count 1 size 3", "grid 20 size 2 to 4 jitter 3"),
     BINS.format(60, 1).replace("count 1 size 3", "grid 10 size 3"),
     BINS.format(60, 1).replace("away 0 to 100", "away 8 to 10"),
+    *(BINS.format(60, 1) + f"  contains mate is robot count {count}\n" for count in (8, 40)),
+    BINS.format(60, 1) + "  contains mate is robot count 3 away 8 to 20\n",
 ]
 
 

@@ -157,6 +157,7 @@ task Fetch in arena size 80
   contains crate is box size 2
   contains marble is ball size 1
   contains cat is walker size 2
+  contains mate is robot count 2
   contains fence is wall from 10 10 to -10 10
   varies noise of left_wheel 0 to 10%
   varies density of Robot 1 to 3
@@ -170,6 +171,7 @@ task Fetch in arena size 80
   rewards 20 on success
   rewards 10 on reach of ball
   rewards 50 on delivery of ball
+  rewards -20 on collision with mate
   rewards 2 on leave of bin by ball
   rewards 3 on reach of ball within 300 ticks of leave of bin
   rewards -0.01 * distance of ball to bin per tick
@@ -382,6 +384,13 @@ TEXTS = [
     ("size 2\n  contains bin", "size 3 to 1 by 0.5\n  contains bin", "taught with ball size 2, now 3 to 1 by 0.5"),
     ("ball is item size 2", "ball is item size 2 reached moves", "taught with ball reached stays, now moves"),
     ("ball is item size 2", "ball is item size 2 delivered stays", "taught with ball delivered moves, now stays"),
+    ("robot count 2", "robot count 3", "taught with mate count 2, now 3"),
+    ("  contains fe", "  contains kin is robot at 30 0\n  contains fe", "its task has changed: contains kin"),
+    (
+        "-20 on collision with mate", "-20 on collision",
+        "its task has changed: no longer rewards -20 on collision with mate; "
+        "its task has changed: rewards -20 on collision is new",
+    ),
     ("bin is zone size 8", "bin is zone size 8 reached vanishes", "taught with bin reached stays, now vanishes"),
     ("crate is box size 2", "crate is box size 2 friction 0.2", "taught with crate friction 0.5, now 0.2"),
     ("crate is box size 2", "crate is ball size 2", None),

@@ -20,10 +20,11 @@ from mindlang.compiler.source import Source
 from tests.edits.sources import a_mind
 from tests.hierarchies import VIRTUAL, physical_kinds, random_graph, virtual_kinds
 from tests.outside.drawn import environment_mind
+from tests.sim.drawn_teams import teams
 from tests.sim.worlds import _events, _measures, _things, learner_kinds, robot_kinds
 
 DRAWN = 400  # minds, and lists of kinds
-FEW, MANY = 20, 60  # lists of one sort, and of several or minds, that bring nothing new
+FEW, MANY = 20, 120  # lists of one sort, and of several or minds, that bring nothing new
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "event", "measure", "curriculum")
 OF_FILES = {"map"}  # which no text says by itself
 KNOWN = {"s0": Bearing("object"), "s1": RangeFinder(at=(-1.0, 0.0, 1.0)), "s2": Compass()}  # of what sensors are made
@@ -96,7 +97,7 @@ def strike_drawn(missing: Missing, strategy: st.SearchStrategy[Iterable[Any]], i
 def task_kinds(draw: st.DrawFn) -> list[Any]:
     """What stands in a task."""
     scene = draw(st.sampled_from([Plain(), Arena(20.0), Arena((26.0, 15.0))]))
-    things = draw(_things(scene, ()))
+    things = draw(_things(scene, (), draw(teams([]))))
     return [scene, *(each.kind for each in things), *draw(_measures(things)), *draw(_events(scene, things))]
 
 

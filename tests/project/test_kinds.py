@@ -31,6 +31,7 @@ CODES = {
 OUTCOMES = {"reached", "delivered"}
 GENERATORS = [
     ROOT / "tests" / "sim" / "worlds.py",
+    ROOT / "tests" / "sim" / "drawn_teams.py",
     ROOT / "tests" / "hierarchies.py",
     ROOT / "tests" / "outside" / "minds.py",
 ]

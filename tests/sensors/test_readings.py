@@ -73,6 +73,7 @@ class Place:
             world=[world],
             things=[SimpleNamespace(is_round=self.is_round, loose=-1)],
             loose=loose,
+            robots=[SimpleNamespace(thing=-1)],
             numbers=np.array(kind.numbers), rays=np.array(columns),
             rims=np.ones(len(kind.rays), F),
         )  # fmt: skip

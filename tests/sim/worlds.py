@@ -39,6 +39,7 @@ from mindrun.kinds.things.wall import Wall
 from mindrun.numbers.quantity import FARTHEST_UNITS, UNSAID, Span
 
 from tests.hierarchies import combined, conditions, on_servos, random_graph
+from tests.sim.drawn_teams import teams
 
 SIZES = st.sampled_from([Span(1.0, 1.0), Span(2.0, 5.0), Span(4.0, 1.0, 0.75), Span(1.0, 3.0, 0.75)])
 WIDE = st.sampled_from([Span(8.0, 8.0), Span(4.0, 12.0), Span(14.0, 6.0, 2.0)])
@@ -129,13 +130,14 @@ def _robots(draw: st.DrawFn, graph: Graph) -> Graph:
 
 
 @st.composite
-def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
-    """A hierarchy with one task, World, in which what may happen happens often: all is large, and near."""
+def random_world(draw: st.DrawFn, most: int = 40, team: bool = False) -> Graph:
+    """A hierarchy with one task, World, in which what may happen happens often; with `team` perhaps other robots."""
     graph = draw(random_graph())
     graph = replace(draw(_robots(graph)), tick=draw(st.sampled_from([1 / 60, 1 / 30, 0.1])))
     scene: SceneKind = draw(st.sampled_from([Plain(), Arena(20.0), Arena(33.0), Arena((26.0, 15.0))]))
     draws = tuple(draw(st.lists(DRAWS, max_size=2, unique_by=lambda drawn: drawn.name)))
-    things = draw(_things(scene, draws))
+    others = draw(teams([skill.name for skill in graph.skills])) if team else []
+    things = draw(_things(scene, draws, others))
     graph = draw(_about_several(graph, things))
     measures, events = draw(_measures(things)), draw(_events(scene, things))
     tallies = tuple(
@@ -248,8 +250,8 @@ def _drives(draw: st.DrawFn, names: list[str]) -> dict[str, Any]:
 
 
 @st.composite
-def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...]) -> tuple[Thing, ...]:
-    """Items, zones and powers, some of them not there; obstacles on a grid or loose."""
+def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...], team: list[Thing]) -> tuple[Thing, ...]:
+    """Items, zones and powers, some of them not there; obstacles on a grid or loose; and others."""
     things: list[Thing] = []
     for name, kind, size in APART:
         if draw(st.integers(0, 2)):
@@ -279,6 +281,7 @@ def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...]) -> tuple
             has_room = not made.within or made.mistake(scene) is None
             things.append(Thing(name, made if has_room else replace(made, within=""), draw(_presence(draws))))
     things += [replace(each, when=draw(_presence(draws))) for each in draw(_obstacles(scene))]
+    things += team
     return tuple(draw(_drawn_places(draw(_counted(each, draws)), draws)) for each in draw(st.permutations(things)))
 
 
@@ -341,7 +344,7 @@ def _counted(draw: st.DrawFn, thing: Thing, draws: tuple[Draw, ...]) -> Thing:
     """A thing, now and then one of which there are as many as are drawn."""
     kind: Any = thing.kind
     counts = [number for number, each in enumerate(draws, 1) if each.is_count]
-    is_countable = getattr(kind, "count", 0) > 1 and not kind.spots
+    is_countable = getattr(kind, "count", 0) > 1 and not (kind.spots or kind.is_robot)
     if not (counts and is_countable and draw(st.booleans())):
         return thing
     many = draw(st.sampled_from(counts))
@@ -369,6 +372,8 @@ def _events(draw: st.DrawFn, scene: SceneKind, things: tuple[Thing, ...]) -> tup
             movers = [each.name for each in things if Reach.accepts("by", each.kind) and each is not thing]
             crossing += [Reach(thing.name, by) for by in movers]
             crossing += [Leave(thing.name, by) for by in ("", *movers) if thing.kind.is_area]
+        if thing.kind.is_robot:
+            events.append(Collision(thing.name))
         if isinstance(thing.kind, Item | LooseBox | Ball):
             events.append(Delivery(thing.name))
             events += [Delivery(thing.name, zone.name) for zone in things if isinstance(zone.kind, Zone)]

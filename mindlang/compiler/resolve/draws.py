@@ -7,7 +7,6 @@ from typing import Any
 
 from mindrun.graph.draws import MAX_VALUES, Draw, ends_of, intervals_of
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import ThingKind
 from mindrun.numbers.expression import Program, is_valid_program, leaves
 from mindrun.numbers.intervals import Interval
 from mindrun.numbers.quantity import COORDINATE, NUMBER, fits
@@ -97,12 +96,12 @@ def with_drawn(
     return replace(phrase, arguments=tuple(arguments)), by if is_drawn else (), many
 
 
-def may_leave(kind: ThingKind, by: Sequence[Program], draws: Sequence[Draw], scene: SceneKind) -> bool:
-    """True if a thing at a place that is drawn may stand outside of a scene, or not with all of it inside."""
+def may_leave(half: float, by: Sequence[Program], draws: Sequence[Draw], scene: SceneKind) -> bool:
+    """True if something of half that size, at a place that is drawn, may not be inside a scene with all of it."""
     ends = [[end for _, found in intervals_of(program, draws) for end in found] for program in by]
     hulls = [(min(each), max(each)) for each in ends]
     corners = (corner for place in zip(hulls[::2], hulls[1::2], strict=True) for corner in product(*place))
-    return not all(scene.has_room(corner, kind.largest / 2) for corner in corners)
+    return not all(scene.has_room(corner, half) for corner in corners)
 
 
 def _places(value: Any) -> tuple[syntax.Numbers | syntax.Sums, ...]:

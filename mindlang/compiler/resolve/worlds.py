@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from math import prod
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,9 @@ from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.registry import arguments, varied_quantity, varying_of
 from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ThingKind
+from mindrun.kinds.things.robot import MOST_ROBOTS
+from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ThingKind, ThingMistake, outside
+from mindrun.numbers.expression import Program
 from mindrun.numbers.quantity import ANGLE, COORDINATE, RATE
 
 from mindlang.compiler.beginning import Beginning, task_beginning
@@ -28,6 +31,7 @@ from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Contains, Declaration, Fails, Name, Starts, Succeeds, Varies, When, of_form
 
+IN_ARENA = "Write a place that is in it with all of the robot; 0 0 is the middle."
 NAMES = "Name the body, an actuator, a sensor or a thing of the task."
 
 
@@ -93,7 +97,7 @@ def resolve_world(declaration: Declaration, robot: RobotFacts, findings: Finding
     phrase = declaration.header.phrase
     scene = make_kind("task", phrase, scope, findings) if phrase else None
     draws = resolve_draws(declaration, robot.names, findings)
-    things = _things(declaration, scene, scope, {draw.name: draw for draw in draws}, findings)
+    things = _things(declaration, scene, scope, {draw.name: draw for draw in draws}, robot.body_kind, findings)
     parts = {"body": (robot.body,) if robot.body else (), "actuator": robot.actuators, "sensor": robot.sensors}
     variable = _Variable(robot.names, {**parts, "thing": things}, scope.place, findings)
     return ResolvedWorld(
@@ -110,7 +114,12 @@ def resolve_world(declaration: Declaration, robot: RobotFacts, findings: Finding
 
 
 def _things(
-    declaration: Declaration, scene: Any, scope: Scope, draws: Mapping[str, Draw], findings: Findings
+    declaration: Declaration,
+    scene: Any,
+    scope: Scope,
+    draws: Mapping[str, Draw],
+    body: BodyKind | None,
+    findings: Findings,
 ) -> tuple[Thing, ...]:
     found: dict[str, Thing] = {}
     obstacles = 0
@@ -123,11 +132,8 @@ def _things(
             message = f"The {declaration.header.noun.text} already contains something called {name}."
             findings.refuse_again("duplicate-thing", places, message, hint)
         if kind:
-            if mistake := kind.mistake(scene):
+            if mistake := _mistake(kind, by, [*draws.values()], scene, body):
                 findings.error(mistake.code, fact.phrase.span, mistake.message, mistake.hint)
-            elif scene and may_leave(kind, by, [*draws.values()], scene):
-                hint = "Write a place that is in it with all of the thing, whatever is drawn; 0 0 is the middle."
-                findings.error("outside-arena", fact.phrase.span, "That is not always inside the arena.", hint)
             elif obstacles <= MAX_OBSTACLES < (made := obstacles + kind.obstacles(scene)):
                 message = f"With those above, that makes {made} obstacles."
                 hint = f"A world takes {MAX_OBSTACLES} in all."
@@ -143,8 +149,38 @@ def _things(
             findings.error("unfit-thing", thing.span, message, hint, Label(zone.span, "this one"))
     is_task = declaration.header.noun.text == "task"  # which has all that a scene lacks
     things = with_places(tuple(found.values()), scene, is_task, findings)
-    _check_places(things, scene, findings)
+    _check_robots([thing for thing in things if thing.kind and thing.kind.is_robot], scene, body, findings)
+    _check_places(things, scene, body, findings)
     return things
+
+
+def _mistake(
+    kind: ThingKind, by: Sequence[Program], draws: Sequence[Draw], scene: SceneKind | None, body: BodyKind | None
+) -> ThingMistake | None:
+    """The error that keeps a thing out of a scene, or None: of a robot, too, whose body says how large it is."""
+    half = body.radius if kind.is_robot and body else kind.largest / 2
+    mistake = kind.mistake(scene) or outside(scene, kind.spots if kind.is_robot else (), half, IN_ARENA)
+    if mistake or not (scene and may_leave(half, by, draws, scene)):
+        return mistake
+    hint = "Write a place that is in it with all of the thing, whatever is drawn; 0 0 is the middle."
+    return ThingMistake("outside-arena", "That is not always inside the arena.", hint)
+
+
+def _check_robots(robots: Sequence[Thing], scene: SceneKind | None, body: BodyKind | None, findings: Findings) -> None:
+    """Report robots that are too many, that are larger than their arena, or are not always there."""
+    count = 1
+    for thing in robots:
+        count += thing.kind.copies
+        if thing.when or thing.many:
+            hint = "Write a count and no condition; a task for each number of robots."
+            findings.error("cannot-vary", thing.span, "There are as many robots in every run.", hint)
+        if count > MOST_ROBOTS:
+            hint = f"A world takes {MOST_ROBOTS}: write a smaller count."
+            findings.error("too-many-things", thing.span, f"That makes {count} robots, with the first.", hint)
+            return
+        if scene and body and count * prod(body.area) > prod(scene.sides):
+            message = f"{count} robots, with the first, are larger than the arena."
+            findings.error("outside-arena", thing.span, message, "Write a larger arena, or a smaller count.")
 
 
 def _master(fact: Contains, kind: ThingKind | None, scope: Scope, findings: Findings) -> str:
@@ -164,7 +200,7 @@ def _presence(fact: Contains, draws: Mapping[str, Draw], scope: Scope, findings:
     return resolve_expressions(fact.when, visible, findings)
 
 
-def _check_places(things: Sequence[Thing], scene: SceneKind | None, findings: Findings) -> None:
+def _check_places(things: Sequence[Thing], scene: SceneKind | None, body: BodyKind | None, findings: Findings) -> None:
     """Report one thing too many, or else what stands where something else stands in every run."""
     apart = [
         thing.span
@@ -177,7 +213,7 @@ def _check_places(things: Sequence[Thing], scene: SceneKind | None, findings: Fi
         findings.error("too-many-things", apart[MAX_THINGS], f"That is thing number {MAX_THINGS + 1}.", hint)
         return
     met: dict[str, tuple[Thing, Thing]] = {}
-    for thing, other in Beginning(scene, things, None, None, None, 0.0).overlapping():
+    for thing, other in Beginning(scene, things, None, None, body, 0.0).overlapping():
         met.setdefault(thing.name, (thing, other))
     for thing, other in met.values():
         hint, there = f"Write another place for {thing.name} or {other.name}.", Label(other.span, "this one")
@@ -221,8 +257,7 @@ def _check_start(here: Span, said: Span | None, begun: Beginning, findings: Find
         findings.error("outside-arena", here, message, "Write a larger arena, or a smaller body.")
         return
     if not begun.is_inside and said:
-        hint = "Write a place that is in it with all of the robot; 0 0 is the middle."
-        findings.error("outside-arena", said, "That is not inside the arena.", hint)
+        findings.error("outside-arena", said, "That is not inside the arena.", IN_ARENA)
     if not (thing := begun.on_robot()):
         return
     if said is None:

@@ -13,7 +13,7 @@ from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import Rectangle, ThingKind
 from mindrun.numbers.quantity import Place, Span
 
-from mindlang.compiler.model import Task
+from mindlang.compiler.model import Task, Thing
 from mindlang.compiler.syntax import Contains, of_form
 from mindlang.lint.study import Finding, Found, Study, rule
 
@@ -76,10 +76,15 @@ class DrawnWorld:
         if not self._start(task):
             return ROBOT
         obstacles, others = ([each for each in task.things if each.kind.is_obstacle is one] for one in (True, False))
+        drawn = [each for each in others if not (each.kind.spots or each.kind.within)]
+        robots, drawn = ([each for each in drawn if each.kind.is_robot is one] for one in (True, False))
+        for thing in robots:
+            if not all(self._start_another(task, thing) for _ in range(thing.kind.copies)):
+                return thing.name
         for kind in (each.kind for each in others):
-            self.things += [_square(place, kind.largest / 2) for place in self._placed(kind)]
+            self.things += [_square(place, self._half(kind)) for place in self._placed(kind)]
         loose = [(each, sum(int(row["count"]) for row in each.kind.rows(self.scene))) for each in obstacles]
-        loose += [(each, each.kind.copies) for each in others if not (each.kind.spots or each.kind.within)]
+        loose += [(each, each.kind.copies) for each in drawn]
         for thing, count in loose:
             if not all(self._put(thing.name, thing.kind) for _ in range(count)):
                 return thing.name
@@ -105,16 +110,40 @@ class DrawnWorld:
         if task.start.at or not self.scene.is_bounded:
             self.robot = task.start.at or self.robot
             return True
+        return self._start_anywhere(task)
+
+    def _start_another(self, task: Task, thing: Thing) -> bool:
+        """Put another robot where nothing of the task and no robot is, or so far from the first as it says."""
+        if thing.kind.distances(self.scene)[1] < inf:
+            return self._put(thing.name, thing.kind)
+        first = self.robot
+        self.things.append(_square(first, self.body.radius))
+        is_found = self._start_anywhere(task)
+        self.things[-1] = _square(self.robot, self.body.radius)
+        self.robot = first
+        return is_found
+
+    def _start_anywhere(self, task: Task) -> bool:
+        """Put the robot where it touches nothing; False where no try succeeds."""
         placed = [(each, place) for each in task.things for place in each.kind.places[: each.kind.copies]]
-        loose = [_square(place, each.kind.largest / 2) for each, place in placed if each.kind.is_loose]
+        moving = [(each.kind, place) for each, place in placed if each.kind.is_loose or each.kind.is_robot]
+        solid = [*self.solid, *self.things, *(_square(place, self._half(kind)) for kind, place in moving)]
         apart = [(each, place) for each, place in placed if not each.kind.is_obstacle]
         for _ in range(MAX_TRIES):
             self.robot = self._anywhere(3 * self.body.radius, self.body.radius)
-            if self._is_clear([*self.solid, *loose], self.robot, self.body.radius) and not any(
-                self._meets(each.name, each.kind, each.kind.begins[1], place) for each, place in apart
+            if self._is_clear(solid, self.robot, self.body.radius) and not any(
+                self._meets(each.name, each.kind, self._first(each.kind), place) for each, place in apart
             ):
                 return True
         return False
+
+    def _half(self, kind: ThingKind) -> float:
+        """Half of the largest size of a thing."""
+        return self.body.radius if kind.is_robot else kind.largest / 2
+
+    def _first(self, kind: ThingKind) -> float:
+        """The largest size that a thing begins with."""
+        return 2 * self.body.radius if kind.is_robot else kind.begins[1]
 
     def _meets(self, name: str, kind: ThingKind, size: float, place: Place) -> bool:
         """True if a thing at a place overlaps the robot, or is a goal that it has reached."""
@@ -124,7 +153,7 @@ class DrawnWorld:
 
     def _put(self, name: str, kind: ThingKind) -> bool:
         """Put a thing down, an obstacle so that the robot can pass it; False where no try succeeds."""
-        (low, high), half = kind.distances(self.scene), self._size(kind.size) / 2
+        (low, high), half = kind.distances(self.scene), self.body.radius if kind.is_robot else self._size(kind.size) / 2
         where, room = (self.solid, half + 3 * self.body.radius) if kind.is_obstacle else (self.things, 0.0)
         for _ in range(MAX_TRIES):
             place = self._anywhere(half + 2 * self.body.radius) if self.scene.is_bounded else self._around(low, high)

@@ -12,6 +12,7 @@ from mindrun.graph.tasks import unfit_thing, varied_kind
 from mindrun.kinds.functions.procedure import is_inside
 from mindrun.kinds.registry import arguments, varied_quantity
 from mindrun.kinds.sensors.sensor import directions
+from mindrun.kinds.things.robot import MOST_ROBOTS
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ROBOT
 from mindrun.numbers.expression import CHOICES, OPERATORS, is_condition, is_valid_program, leaves
 from mindrun.numbers.quantity import COORDINATE, NUMBER, SKILL, THING, UNSAID, fits
@@ -37,6 +38,8 @@ def _flaws(graph: Graph) -> Iterator[str]:
         yield from (f"skill {skill.name} {what}" for what in _skill_flaws(graph, number, skill, width))
     yield from _likeness_flaws(graph)
     for task in graph.tasks:
+        if not {thing.master or graph.master for thing in task.things} <= {skill.name for skill in graph.skills}:
+            yield f"task {task.name} has a robot under what is no skill"
         if any(unfit_thing(task.things, sensor.kind.things) for sensor in graph.sensors):
             yield f"task {task.name} has things apart that a sensor is about"
         flaws = chain(_task_flaws(task, width, len(graph.actuators)), _variation_flaws(graph, task))
@@ -265,6 +268,10 @@ def _world_flaws(task: Task) -> Iterator[str]:
     """A world has no more than it can look at, and only one with walls has patches."""
     if sum(thing.kind.copies for thing in task.things if not thing.kind.is_obstacle) > MAX_THINGS:
         yield f"contains more than {MAX_THINGS} things"
+    if sum(thing.kind.copies for thing in task.things if thing.kind.is_robot) >= MOST_ROBOTS:
+        yield f"contains more than {MOST_ROBOTS} robots"
+    if any((thing.when or thing.many) if thing.kind.is_robot else thing.master for thing in task.things):
+        yield "has robots that are not always there, or a master of something else"
     if sum(thing.kind.obstacles(task.scene) for thing in task.things) > MAX_OBSTACLES:
         yield f"contains more than {MAX_OBSTACLES} obstacles"
     zones = {thing.name for thing in task.things if thing.kind.is_area and not thing.kind.within}

@@ -108,7 +108,7 @@ OBSTACLE = _columns(i8="columns rows count option options x_row y_row", f8="firs
 MEASURES = _columns(i8="kind thing things of ofs over ring row", f8="beyond")
 MAKING = _columns(i8="row code length")
 PRESENCE = _columns(i8="thing box boxes when whens")
-EVENT = _columns(i8="kind thing things to tos arrival columns rows board after window left", f8="patch")
+EVENT = _columns(i8="kind thing things to tos arrival columns rows board after window left is_common", f8="patch")
 END = _columns(i8="event times when whens succeeds is_end box boxes")
 TALLY = _columns(i8="event when whens code length longest row")
 REWARD = _columns(i8="code length on each eachs when whens last")

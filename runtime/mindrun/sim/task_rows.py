@@ -57,9 +57,10 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
     first, first_robot = {name: found.start for name, found in rows_by_name(task).items()}, robot_rows(task)[0]
     numbers = hash_numbers(task).things
     for number, thing in enumerate(things_of(task)):
-        kind, size, copy = thing.kind, _size(graph, thing.kind), number - first[thing.name]
+        kind, size = thing.kind, _size(graph, thing.kind)
+        copy = number - first[thing.name] - (thing.name == own_name(task))  # −1 of the first robot, which is no copy
         low, high = kind.distances(task.scene)
-        x, y = kind.places[copy - (kind.is_robot and thing.name == own_name(task))] if kind.places else (0.0, 0.0)
+        x, y = kind.places[copy] if kind.places else (0.0, 0.0)
         is_drawn = bool(kind.options) or (kind.walks and not kind.wanders)
         own = _drawn_places(thing, parameters, programs)[:1] if not kind.ways else []
         if kind.is_loose:  # not in the robot
@@ -69,8 +70,7 @@ def thing_rows(graph: Graph, task: Task, parameters: Parameters, programs: Progr
             "by": size.by or 0.0, "drawn": size.by is None and size.first != size.last, "low": low, "high": high,
             "hold": graph.body.front + kind.largest / 2, "x": x, "y": y,
             "is_fixed": (bool(kind.places) or is_drawn) and number != first_robot,
-            "is_round": kind.is_round and not (kind.is_robot and graph.body.outline),
-            "is_area": kind.is_area, "is_goal": thing.name in never,
+            "is_round": kind.is_round, "is_area": kind.is_area, "is_goal": thing.name in never,
             "loose": next(loose) if kind.is_loose else -1, "settles": kind.is_loose and zones_stay,
             "walker": next(walkers) if kind.walks else -1, "number": numbers[number],
             "copy": copy, "copies": kind.copies, "option": options, "options": 0 if own else len(kind.options),
@@ -230,6 +230,7 @@ def event_rows(task: Task) -> tuple[Array, int, int]:
     rows: list[Row] = []
     board = arrivals = windows = 0
     numbers = {event: number for number, event in enumerate(task.events)}
+    kinds = {thing.name: thing.kind for thing in task.things}
     for event in task.events:
         own, code = event.row(task.scene), codes.EVENT_CODES[names()[type(event)]]
         about, into = places[event.thing], places[event.other]
@@ -238,6 +239,7 @@ def event_rows(task: Task) -> tuple[Array, int, int]:
             "patch": 1.0, "board": board, **own, "arrival": arrivals, "left": windows,
             "after": numbers[event.within.of] if event.within else -1,
             "window": event.within.ticks + 1 if event.within else 0,
+            "is_common": all(each.is_common(kinds) for each in event.single),
         })  # fmt: skip
         board += int(own.get("columns", 0) * own.get("rows", 0))
         arrivals += event.remembered(len(about), len(into))

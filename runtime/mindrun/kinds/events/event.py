@@ -89,6 +89,10 @@ class EventKind(AboutThing):
         """How many of its things, or of the others, the lanes remember to have been where they are."""
         return 0
 
+    def is_common(self, kinds: Mapping[str, ThingKind]) -> bool:
+        """True if it happens to a world, and so to each of its robots; `kinds` are those of its things by name."""
+        return self.is_of_success
+
     def row(self, scene: SceneKind) -> Row:
         """The kind's columns of the lanes' table but for its thing: `columns` and `rows` of patches, `patch` a side."""
         return {}
@@ -98,7 +102,7 @@ class EventKind(AboutThing):
 class Collision(EventKind):
     """The body, or the item it holds, begins to touch an obstacle or a wall; to push a box or ball is no collision.
 
-    With `with` it begins to touch a robot of that name, or what that holds, once for each.
+    With `with` it begins to touch a robot of that name, or the item that this holds: once for each of them.
     """
 
     with_: ThingName = left_out("")
@@ -115,7 +119,7 @@ class Collision(EventKind):
 
 @kind("event", "reach")
 class Reach(EventKind):
-    """An item, box, ball or walker comes into the claw's reach, or the robot's centre into a zone or power.
+    """An item, box, ball, walker or robot comes into the claw's reach, or the robot's centre into a zone or power.
 
     Once until it has left again. With `by` another thing does so in the robot's place: its middle comes into the zone
     or power, or its rim no farther from that of anything else than a claw reaches; nothing becomes of what it reaches.
@@ -123,6 +127,9 @@ class Reach(EventKind):
 
     of: ThingName
     by: ThingName = left_out("")
+
+    def is_common(self, kinds: Mapping[str, ThingKind]) -> bool:
+        return bool(self.by) and not (kinds[self.of].is_robot or kinds[self.by].is_robot)
 
     @property
     def outcome(self) -> str:  # type: ignore[override]
@@ -145,6 +152,9 @@ class Leave(EventKind):
 
     of: ThingName
     by: ThingName = ""
+
+    def is_common(self, kinds: Mapping[str, ThingKind]) -> bool:
+        return bool(self.by) and not (kinds[self.of].is_robot or kinds[self.by].is_robot)
 
     is_about = staticmethod(lambda kind: kind.is_area)  # squares on the floor
 
@@ -193,6 +203,9 @@ class Delivery(EventKind):
 
     is_about = staticmethod(lambda kind: kind.can_be_delivered)
     remembered = staticmethod(lambda things, others: things if others else 0)  # where it is about certain zones
+
+    def is_common(self, kinds: Mapping[str, ThingKind]) -> bool:
+        return kinds[self.of].is_loose
 
     @classmethod
     def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:

@@ -64,8 +64,7 @@ class Bumper(Physical):
             robots = len(t.robots)
             for other in range(p - p % robots, p - p % robots + robots):
                 if other != p:
-                    x, y = middle_of(s.body, other)
-                    lean_disc(t, s, sensor, x - s.body[X, p], y - s.body[Y, p], t.world[0].radius, p)
+                    lean_robot(t, s, sensor, other, p)
 
 
 def lean(t: Any, s: Any, sensor: Any, i: Any, p: Any) -> None:
@@ -79,16 +78,30 @@ def lean(t: Any, s: Any, sensor: Any, i: Any, p: Any) -> None:
         lean_disc(t, s, sensor, dx, dy, half, p)
     else:
         sn, c = sine_cosine(s.loose[LOOSE_ROWS * i + TURN, p])
-        along, across = beyond(c * dx + sn * dy, half), beyond(c * dy - sn * dx, half)
-        is_flat = along == 0.0 or across == 0.0
-        press(t, s, sensor, c * along - sn * across, sn * along + c * across, is_flat, p)
+        lean_box(t, s, sensor, dx, dy, half, half, c, sn, p)
+
+
+def lean_robot(t: Any, s: Any, sensor: Any, other: Any, p: Any) -> None:
+    """Press the switches of lane p that the robot of another lane touches."""
+    dx, dy, body = s.body[X, other] - s.body[X, p], s.body[Y, other] - s.body[Y, p], t.world[0]
+    if body.is_round:
+        lean_disc(t, s, sensor, dx, dy, body.radius, p)
+    else:
+        lean_box(t, s, sensor, dx, dy, body.front, body.side, s.heading[COSINE, other], s.heading[SINE, other], p)
 
 
 def lean_disc(t: Any, s: Any, sensor: Any, dx: Any, dy: Any, half: Any, p: Any) -> None:
-    """Press the switches of lane p that a disc of radius `half` touches, (dx, dy) from the robot's middle."""
+    """Press the switches of lane p that a disc touches, whose middle is (dx, dy) from the body's."""
     far = np.sqrt(dx * dx + dy * dy)
     share = 1.0 - half / far if far > half else 0.0
     press(t, s, sensor, dx * share, dy * share, False, p)
+
+
+def lean_box(t: Any, s: Any, sensor: Any, dx: Any, dy: Any, half_x: Any, half_y: Any, c: Any, sn: Any, p: Any) -> None:
+    """Press the switches of lane p that a rectangle touches, turned by the angle of that cosine and sine."""
+    along, across = beyond(c * dx + sn * dy, half_x), beyond(c * dy - sn * dx, half_y)
+    is_flat = along == 0.0 or across == 0.0
+    press(t, s, sensor, c * along - sn * across, sn * along + c * across, is_flat, p)
 
 
 def beyond(away: Any, side: Any) -> Any:

@@ -19,7 +19,7 @@ class Contact(Physical):
 
     near = 1
     # What a claw can take, push or catch.
-    is_about = staticmethod(lambda kind: kind.can_be_held or kind.is_loose or kind.walks)
+    is_about = staticmethod(lambda kind: kind.can_be_held or kind.is_loose or kind.walks or kind.is_robot)
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

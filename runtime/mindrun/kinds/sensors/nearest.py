@@ -184,7 +184,7 @@ class Light(Physical):
     """Light of a thing, of several the nearest: 1 at its middle, 0.5 at `range`, far away falling with the square.
 
     1 / (1 + (distance of the middles / range)²); 0 without it, and where something solid is between the middles: an
-    obstacle, a wall, or a box or ball of another name.
+    obstacle, a wall, or a box, ball or robot of another name.
     """
 
     of: ThingName
@@ -208,6 +208,7 @@ class Light(Physical):
                 np.isnan(share)
                 or is_shaded(s.boxes, middle_x, middle_y, half_x, half_y, p)
                 or is_shaded_by_loose(t, s, sensor, middle_x, middle_y, half_x, half_y, p)
+                or is_shaded_by_robot(t, s, sensor, middle_x, middle_y, half_x, half_y, p)
             )
             out[p] = ZERO if is_dark else v
 
@@ -233,11 +234,34 @@ def is_shaded_by_loose(t: Any, s: Any, sensor: Any, x: Any, y: Any, half_x: Any,
             is_met = meets_disc(dx, dy, half_x, half_y, half)
         else:
             sine, cosine = sine_cosine(s.loose[LOOSE_ROWS * i + TURN, p])
-            along, across = cosine * half_x + sine * half_y, cosine * half_y - sine * half_x
-            is_met = meets_rectangle(cosine * dx + sine * dy, cosine * dy - sine * dx, along, across, half, half)
+            is_met = meets_turned(dx, dy, half_x, half_y, half, half, cosine, sine)
         if is_met:
             return True
     return False
+
+
+def is_shaded_by_robot(t: Any, s: Any, sensor: Any, x: Any, y: Any, half_x: Any, half_y: Any, p: Any) -> Any:
+    """True if another robot of the world of lane p meets that line; not one of those the sensor is about."""
+    home, body = p - p % len(t.robots), t.world[0]
+    for number in range(len(t.robots)):
+        thing, other = t.robots[number].thing, home + number
+        if (other == p) | ((sensor.thing <= thing) & (thing < sensor.thing + sensor.things)):
+            continue
+        dx, dy = x - s.body[X, other], y - s.body[Y, other]
+        if body.is_round:
+            is_met = meets_disc(dx, dy, half_x, half_y, body.radius)
+        else:
+            cosine, sine = s.heading[COSINE, other], s.heading[SINE, other]
+            is_met = meets_turned(dx, dy, half_x, half_y, body.front, body.side, cosine, sine)
+        if is_met:
+            return True
+    return False
+
+
+def meets_turned(dx: Any, dy: Any, half_x: Any, half_y: Any, wide: Any, high: Any, cosine: Any, sine: Any) -> Any:
+    """True if a line meets a rectangle that is turned by the angle of that cosine and sine."""
+    along, across = cosine * half_x + sine * half_y, cosine * half_y - sine * half_x
+    return meets_rectangle(cosine * dx + sine * dy, cosine * dy - sine * dx, along, across, wide, high)
 
 
 def meets_rectangle(dx: Any, dy: Any, half_x: Any, half_y: Any, wide: Any, high: Any) -> Any:

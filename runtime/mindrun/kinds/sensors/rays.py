@@ -53,7 +53,8 @@ class Eye(Ranging):
 
     A range finder that sees all things of that name and no other, obstacles and walls too; whatever is solid before one
     hides it, but for those of its own name that can be pushed. Angles turn counterclockwise from straight ahead, or
-    from where the servo looks that it is `on`. Of a box that can be pushed it sees the disc in it.
+    from where the servo looks that it is `on`. Of a box that can be pushed it sees the disc in it, of another robot
+    that around it.
     """
 
     of: ThingName

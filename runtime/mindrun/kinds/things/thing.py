@@ -218,6 +218,9 @@ class ThingKind:
                 return mistake
         elif self.count > 1 and self.count != len(self.at):
             hint = "Leave the count out, or the place."
+            if len(self.at) > 1:
+                message = f"{self.count} things cannot stand at {len(self.at)} places."
+                return ThingMistake("place-for-many", message, "Leave the count out, or name as many places.")
             return ThingMistake("place-for-many", "Several things cannot stand at one place.", hint)
         hint = "Write a place that is in it with all of the thing; 0 0 is the middle."
         return outside(scene, self.spots, self.largest / 2, hint)

@@ -202,7 +202,7 @@ def meet_end(tables, state, end, i, lanes, interrupt):
     if end.event >= 0:
         if judged.happened[end.event] == 0:
             return
-        come_by_event(judged, end, len(tables.robots), lanes)
+        come_by_event(tables, judged, end, lanes)
     else:
         run_program(tables, state, end.when, end.whens, 0, lanes, True)
         for lane in range(lanes):
@@ -222,11 +222,12 @@ def meet_end(tables, state, end, i, lanes, interrupt):
         mark_success(tables, judged, lanes)
 
 
-def come_by_event(judged, end, robots, lanes):
+def come_by_event(tables, judged, end, lanes):
     """Set `paid` to 1 where the event of an end happens, and has so often to the robots of a world together."""
+    robots, is_common = len(tables.robots), tables.events[end.event].is_common
     for home in range(0, lanes, robots):
         times = 0
-        for lane in range(home, home + robots):
+        for lane in range(home, home + (1 if is_common else robots)):
             times += judged.counts[end.event, lane]
         for lane in range(home, home + robots):
             judged.paid[lane] = 1.0 if times >= end.times and judged.events[end.event, lane] > 0.0 else 0.0

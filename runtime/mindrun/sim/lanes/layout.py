@@ -142,18 +142,18 @@ def start_mates(tables: Tables, world: WorldState, home: int) -> None:
 
 
 def start_mate(tables, world, mate, home, lane):
-    """Put the robot of a lane at the place of its thing, anywhere clear in an arena, or around the first one."""
+    """Put the robot of a lane at the place of its thing, around the first one, or anywhere clear in an arena."""
     thing, body, constants = tables.things[mate], world.body, tables.world[0]
     body[:, lane] = 0.0
     if thing.is_fixed:
         body[X, lane], body[Y, lane] = place_of(world.things, mate, home)
-    elif constants.half_x < ENDLESS_UNITS:
-        start_anywhere(tables, world, lane)
-    else:
+    elif thing.high < ENDLESS_UNITS:  # it says how far away, or the scene does
         body[X, lane], body[Y, lane] = middle_of(body, home)  # from where distances count
         low = max(thing.low, 4 * constants.radius)
         x, y = find(tables, world, low, max(thing.high, low), 0.0, constants.radius, mate, lane)
         body[X, lane], body[Y, lane] = x, y
+    else:
+        start_anywhere(tables, world, lane)
     face(tables, world, lane)
 
 

@@ -200,7 +200,10 @@ def reset(tables, state, lane):
 
 
 def finish(tables, state, jobs, home):
-    """Write down what came of the job of a world: the mean of what its robots are paid, the sum of what happened."""
+    """Write down what came of the job of a world: the mean of what its robots are paid, the sum of what happened.
+
+    What is common to all of them has happened once.
+    """
     judge, run, robots = state.judge, state.run, len(tables.robots)
     job = run.job[home]
     jobs.lines[job, : len(tables.rewards)], jobs.counts[job, : len(tables.events)], jobs.faults[job] = 0.0, 0, 0
@@ -209,7 +212,7 @@ def finish(tables, state, jobs, home):
         for i in range(len(tables.rewards) if is_paid(tables, number) else 0):
             jobs.lines[job, i] += judge.lines[i, lane]
         for i in range(len(tables.events)):
-            jobs.counts[job, i] += judge.counts[i, lane]
+            jobs.counts[job, i] += judge.counts[i, lane] if lane == home or not tables.events[i].is_common else 0
         jobs.faults[job] += run.faults[lane]
         run.job[lane] = -1
     for i in range(len(tables.rewards) if robots > 1 else 0):

@@ -214,7 +214,25 @@ def look_at_robots(tables: Tables, world: WorldState, sight: SightState, first: 
             for ray in range(first, last):
                 if not (tables.passes[0, ray] <= thing) & (thing < tables.passes[1, ray]):
                     far = rows[FIRST_RAY + ray, lane]
-                    rows[FIRST_RAY + ray, lane] = to_disc(tables, rows, ray, F(dx), F(dy), radius, far, lane)
+                    if tables.world[0].is_round:
+                        far = to_disc(tables, rows, ray, F(dx), F(dy), radius, far, lane)
+                    else:
+                        far = to_outline(tables, world, rows, ray, F(dx), F(dy), other, far, lane)
+                    rows[FIRST_RAY + ray, lane] = far
+
+
+def to_outline(tables, world, rows, ray, x, y, other, far, lane):
+    """How far a ray goes that would go so far, where the rectangle of another robot stands (x, y) from the robot's."""
+    ahead, aside = rows[SIGHT_COSINE, lane], rows[SIGHT_SINE, lane]
+    cosine, sine = tables.rays[COSINE, ray], tables.rays[SINE, ray]
+    c, s = ahead * cosine - aside * sine, aside * cosine + ahead * sine
+    half_x, half_y = F(tables.world[0].front), F(tables.world[0].side)
+    turned_c, turned_s = F(world.heading[COSINE, other]), F(world.heading[SINE, other])
+    x, y = turned_c * x + turned_s * y, turned_c * y - turned_s * x
+    ix, iy = ONE / (c * turned_c + s * turned_s), ONE / (s * turned_c - c * turned_s)
+    left, right, low, high = (x - half_x) * ix, (x + half_x) * ix, (y - half_y) * iy, (y + half_y) * iy
+    enter, leave = max(min(left, right), min(low, high)), min(max(left, right), max(low, high))
+    return enter if (enter >= ZERO) & (enter <= leave) & (enter < far) else far
 
 
 def to_disc(tables, rows, ray, x, y, radius, far, lane):
