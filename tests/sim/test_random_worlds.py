@@ -41,7 +41,7 @@ def test_every_tick_is_what_plain_python_says(graph: Graph, scale: float, seed: 
 
 
 @settings(max_examples=cases(15), suppress_health_check=SLOW)
-@given(random_world(most=25), st.sampled_from(SCALES), st.integers(0, 2**32 - 1))
+@given(random_world(most=25, team=True), st.sampled_from(SCALES), st.integers(0, 2**32 - 1))
 def test_a_result_is_the_same_in_any_company(graph: Graph, scale: float, seed: int) -> None:
     """Of its genome and its seed alone: whatever the lane, the batch, the worker and the order."""
     rng = np.random.default_rng(seed)
@@ -59,7 +59,8 @@ def test_a_result_is_the_same_in_any_company(graph: Graph, scale: float, seed: i
     order = rng.permutation(3)
     assert np.array_equal(alone.total[order], rollout(lanes=5).score(genomes[order], seeds).total, equal_nan=True)
     one = list(trace(rollout(), seeds[2], genomes[1]).moments)[-1]
-    assert np.array_equal(one.lines, alone.by_line[1, 2, : len(one.lines)], equal_nan=True)
+    if not any(thing.kind.is_robot for thing in graph.tasks[0].things):  # else these are what one of several is paid
+        assert np.array_equal(one.lines, alone.by_line[1, 2, : len(one.lines)], equal_nan=True)
     assert one.tick == alone.ticks[1, 2]
 
 

@@ -13,10 +13,11 @@ HASH_SIZES = 5, 13, 23, 47, 97, 193, 389, 769, 1543, 3079, 6151, 12289  # of the
 
 
 def rows_by_name(task: Task) -> dict[str, range]:
-    """The rows of `things_of` that each name has; the empty name has NOWHERE."""
-    found = {"": NOWHERE}
+    """The rows of `things_of` that each name has; NOWHERE of the empty name, and of robots of which there are none."""
+    found = {"": NOWHERE, **{thing.name: NOWHERE for thing in task.things if thing.kind.is_robot}}
     for row, thing in enumerate(things_of(task)):
-        found[thing.name] = range(found[thing.name].start if thing.name in found else row, row + 1)
+        known = found.get(thing.name) or range(row, row)
+        found[thing.name] = range(known.start, row + 1)
     return found
 
 

@@ -19,16 +19,12 @@ def is_paid(tables, number):
 
 @OF_SEVERAL
 def join(tables: Tables, world: WorldState, contact: ContactState, lanes: int) -> None:
-    """Let Chipmunk make the tick of two robots that could touch, and of all strides alike where anything is swift.
-
-    Where one leaves all places, all robots of its world fly.
-    """
+    """Let Chipmunk make the tick of two robots that could touch. Where one leaves all places, all of its world fly."""
     near, robots, dt = contact.near, len(tables.robots), tables.world[0].dt
     for home in range(0, lanes, robots):
-        is_swift, are_there = 0, True
+        are_there = True
         for lane in range(home, home + robots):
             contact.mates[1, lane], contact.mates[0, lane] = contact.mates[0, lane], 0
-            is_swift = max(is_swift, contact.swift[lane])
             x, y = next_middle(world.body, dt, lane)
             are_there = are_there and within(x, y, world.body[ANGLE, lane] + world.body[SPIN, lane] * dt)
             reach = reach_of(tables, world, lane) + CONTACT_MARGIN_UNITS
@@ -38,7 +34,7 @@ def join(tables: Tables, world: WorldState, contact: ContactState, lanes: int) -
                 gap = reach + (tables.world[0].radius if world.held[other] < 0 else reach_of(tables, world, other))
                 if dx * dx + dy * dy < gap * gap:
                     near[lane], near[other] = CONTACT_TICKS, CONTACT_TICKS
-        contact.swift[home] = is_swift
+        contact.swift[home] = contact.swift[home] if are_there else 0
         for lane in range(home, home if are_there else home + robots):
             near[lane] = 0
 

@@ -145,7 +145,10 @@ def meets(x, y, dx, dy, wide, high):
 
 
 def find_swift(tables, world, swift, lanes):
-    """Set `swift` [lane] to 1 where a world has to make strides, if anything may be swift; return how many may be."""
+    """Set `swift` of a world's first lane to 1 where it has to make strides, if anything may be swift.
+
+    Return how many may be.
+    """
     body, held, constants, count = world.body, world.held, tables.world[0], 0
     own_arm, own_least = 0.0 if constants.is_round else constants.radius, min(constants.front, constants.side)
     arm, least, dt = constants.arm, constants.least, constants.dt
@@ -158,9 +161,7 @@ def find_swift(tables, world, swift, lanes):
             count += speed_of_loose(tables, world, i, lane) * dt > SWIFT_SHARE * size / 2
     robots = len(tables.robots)
     for home in range(0, lanes if count > 0 else 0, robots):
-        is_swift = 1 if stride(tables, world, home) < dt else 0
-        for lane in range(home, home + robots):
-            swift[lane] = is_swift
+        swift[home] = 1 if stride(tables, world, home) < dt else 0
     return count
 
 

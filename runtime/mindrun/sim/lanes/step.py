@@ -197,7 +197,7 @@ def find_near(tables, world, sight, contact, lanes):
         near[lane] = near[lane] if there else 0
     if find_swift(tables, world, contact.swift, lanes) > 0:
         for lane in range(lanes):
-            near[lane] = CONTACT_TICKS if contact.swift[lane] > 0 else near[lane]
+            near[lane] = CONTACT_TICKS if contact.swift[lane - lane % len(tables.robots)] > 0 else near[lane]
 
 
 def approach(box, body, dt, gap, lanes):
