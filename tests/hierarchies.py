@@ -26,6 +26,7 @@ from mindrun.kinds.sensors.nearest import Bearing, Distance, Light
 from mindrun.kinds.sensors.order import Order
 from mindrun.kinds.sensors.rays import Eye, RangeFinder
 from mindrun.kinds.sensors.sensor import Physical, SensorKind, directions
+from mindrun.kinds.sensors.signal import Signal
 from mindrun.kinds.sensors.waves import Clock, Sine
 from mindrun.numbers.quantity import Span
 from numpy.typing import NDArray
@@ -50,6 +51,8 @@ WORLDLY = [
     Held("coin"),
     Inside("home"),
     Inside("plug"),
+    Signal("mate"),
+    Signal("scout", range=9.0),
     Inertial(),
     Inertial(2.0, dead_zone=0.05),
     Battery(),

@@ -42,6 +42,7 @@ THINGS = {
     "box": ("#b07a45 #8c6d5a #a08a3c #7a6f8f", "#d9a066 #b8937a #cdb85c #a497c2"),
     "ball": ("#e05a47 #3f8fb5 #d98a9b #5f9e6e", "#ff7d68 #66b8e0 #ffb0c0 #86cf98"),
     "robot": ("#3d6ea8 #4f8062 #96577f #8a6d3b", "#86b3ec #93c9a5 #dc9fc6 #d3b583"),
+    "slope": ("#a08f6a #8a9a86 #9a8796 #7f8c99", "#cdbb90 #b0c4ab #c4aec0 #a5b5c4"),
     "walker": ("#b5473c #7d4fa3 #2f7f86 #8a8420", "#f08a7c #c79bf0 #6fcfd6 #d6cf5a"),
 }
 NAMED = {

@@ -26,6 +26,7 @@ SENSORS = {
     "holding": ["sensor holding is held of ball", "sensor holding is held of coin"],
     "home": ["sensor home is inside of nest", "sensor home is inside of dock"],
     "moving": ["sensor moving is inertial"],
+    "heard": ["sensor heard is signal of mate", "sensor heard is signal of kin range 9"],
     "way": ["sensor way is distance of ball", "sensor way is distance of nest range 9"],
     "glow": ["sensor glow is light of ball", "sensor glow is light of dock range 4"],
     "camera": ["sensor camera is eye of ball at -30 30 deg", "sensor camera is eye of nest at 0 40 deg on pan"],

@@ -41,6 +41,8 @@ MAST = [
     "actuator mast is servo neutral 1/4",
     "actuator mast is lamp neutral 0",
     "actuator mast is lamp neutral 10%",
+    "actuator mast is signal neutral 0",
+    "actuator mast is signal neutral 10% delay 2 ticks",
 ]
 SERVOS = {
     "pan": ["actuator pan is servo neutral 0.5", "actuator pan is servo neutral 1/2 range 45 deg speed 90 deg per s"],
@@ -101,6 +103,13 @@ THINGS = [
         *("cat is walker seeks robot", "cat is walker flees robot range 9", "cat is walker seeks cat range 20"),
         "cat is walker flees cat",
     ],
+    [
+        "ramp is slope size 4 at 12.5 7.5 facing 90 deg",
+        "ramp is slope at 12.5 7.5 slides 2",
+        "ramp is slope at 12.5 7.5 or 7.5 12.5 pull 20",
+        "ramp is slope within nest",
+    ],
+    ["kin is robot count 0", "kin is robot at 7.5 -12.5"],
     ["mate is robot", "mate is robot at -12.5 -7.5", "mate is robot at -12.5 -7.5 or 12.5 12.5"],
 ]
 DRAWN = [
@@ -307,7 +316,7 @@ def _said(rng: Random, argument: Argument, is_drawn: bool) -> str:
         return rng.choice(["1.5 1", "2 -0.5"])
     unit, factor = rng.choice([*argument.type.units.items()])
     default = argument.default[0] if argument.shape == "list" else argument.default
-    step = 5 if argument.type.high > 1 else 0.01
+    step = 5 if argument.type.high > 1 else 1 if argument.type.whole else 0.01
     value = (min(default + step, argument.type.high) if default < argument.type.high else default - step) / factor
     return f"{value:g}{'' if unit == '%' else ' '}{unit}".rstrip()
 

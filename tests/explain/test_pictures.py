@@ -14,7 +14,7 @@ ARTICLES = {(each.noun, each.name): each for each in kind_articles()}
 WITHOUT_PICTURE = {  # a number of their own, or of the environment's
     "battery", "broken", "computed", "contact", "held", "inertial", "inside", "light", "mirrored", "observation",
     "observations",
-    "order", "position", "reading", "turned",
+    "order", "position", "reading", "signal", "turned",
 }  # fmt: skip
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -89,6 +89,6 @@ def test_what_has_no_picture_is_what_has_nothing_to_draw() -> None:
     """A new body, actuator or sensor gets one, or stands here."""
     drawn = {(each.noun, each.name) for each in kind_articles() if each.noun in ("body", "actuator", "sensor")}
     assert drawn - OF_KINDS.keys() == {
-        *(("actuator", name) for name in ("action", "choice")),
+        *(("actuator", name) for name in ("action", "choice", "signal")),
         *(("sensor", name) for name in WITHOUT_PICTURE),
     }

@@ -8,6 +8,7 @@ from mindrun.kinds.sensors.contact import Floor
 from mindrun.kinds.sensors.motion import Odometer, Position, Speed, TurnRate
 from mindrun.kinds.sensors.nearest import Distance, Light
 from mindrun.kinds.sensors.rays import Eye
+from mindrun.kinds.sensors.signal import Signal
 
 from tests.sim.plain_bodies import rim_of, side_of
 
@@ -26,6 +27,8 @@ def sensed(world, kind, all_of, boxes):
             return [light(world, kind, world.nearest(all_of), all_of)], 0.0
         case Eye():
             return [eye(world, kind, all_of, boxes, world.looks(kind) + at) for at in kind.at], 1.0
+        case Signal():  # there is nobody else
+            return [(0.0, 0.0)], 0.0
         case TurnRate():
             return [signed(-body.angular_velocity / kind.range, kind.dead_zone)], 0.5
         case Speed():

@@ -22,7 +22,7 @@ from mindrun.graph.graph import (
     Variation,
 )
 from mindrun.graph.weights import genes
-from mindrun.kinds.actuators.actuator import Gripper, Lamp, Motor, Servo, Steering, Thruster, Wheel
+from mindrun.kinds.actuators.actuator import Gripper, Lamp, Motor, Servo, Signal, Steering, Thruster, Wheel
 from mindrun.kinds.bodies.body import Box, Car, Disc, Holonomic
 from mindrun.kinds.events.event import Collision, Delivery, EventKind, Exhaustion, Leave, Reach, Success, Visit, Within
 from mindrun.kinds.learners import Learner
@@ -81,7 +81,7 @@ THRUSTERS = st.builds(
 )
 CLAWS = st.builds(Gripper, st.sampled_from([0.0, 0.5, 0.9, 1.0]), st.sampled_from([1.5, 4.0]), DELAY, NOISE)
 SERVOS = st.builds(Servo, NEUTRAL, DELAY, st.sampled_from([pi / 2, 0.0, 3.0]), st.sampled_from([2 * pi, 0.1, 0.5]))
-OTHERS = CLAWS | SERVOS | st.builds(Lamp, NEUTRAL, DELAY)
+OTHERS = CLAWS | SERVOS | st.builds(Lamp, NEUTRAL, DELAY) | st.builds(Signal, NEUTRAL, DELAY)
 RANGES = {  # of what varies
     "thrust": st.sampled_from([(60.0, 200.0), (-50.0, 15.0), (80.0, 80.0)]),
     "delay": st.sampled_from([(0.0, 3.0), (2.0, 2.0), (1.0, 6.0)]),
