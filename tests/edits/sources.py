@@ -104,8 +104,8 @@ THINGS = [
         "cat is walker flees cat",
     ],
     [
-        "ramp is slope size 4 at 12.5 7.5 facing 90 deg",
-        "ramp is slope at 12.5 7.5 slides 2",
+        "ramp is slope size 4",
+        "ramp is slope at 12.5 7.5 facing 90 deg slides 2",
         "ramp is slope at 12.5 7.5 or 7.5 12.5 pull 20",
         "ramp is slope within nest",
     ],
