@@ -37,7 +37,8 @@ AROUND = (
     "sensor left is reading 1 of feelers",
     "sensor right is reading 3 of feelers",
     "skill Go is rule\n  drives glow at 0",
-    "task World in arena size 60\n  contains gem is item\n  contains dock is power size 5\n  contains mate is robot\n  lasts 60 s",
+    "task World in arena size 60\n  contains gem is item\n  contains dock is power size 5\n  contains mate is robot\n"
+    "  lasts 60 s",
 )
 ALONE = ("tick", "master", "body")  # of which a mind has one, whatever its name
 TASK = "task Roam in arena size 50\n  lasts 60 s"

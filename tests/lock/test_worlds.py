@@ -37,6 +37,7 @@ actuator right_wheel is wheel side right neutral 0.5
 actuator claw is gripper neutral 0
 actuator mast is servo neutral 0.5 range 45 deg
 actuator light is lamp neutral 0
+actuator call is signal neutral 0
 sensor eye is range_finder at 0 30 330 deg range 12
 sensor ball_bearing is bearing of ball
 sensor ball_drift is derivative of ball_bearing
@@ -51,6 +52,7 @@ sensor south is turned of north by 180 deg
 sensor image is mirrored of north
 sensor way is distance of ball
 sensor glow is light of ball
+sensor heard is signal of mate
 sensor camera is eye of ball at -30 30 deg
 sensor turning is turn_rate
 sensor pace is speed
@@ -90,6 +92,7 @@ skill Grab is rule
   reads holding
   reads home
   drives claw at near + holding - home
+  drives call at 1/2
   drives mood at 1/2
 
 skill Watch is rule
@@ -158,6 +161,7 @@ task Fetch in arena size 80
   contains marble is ball size 1
   contains cat is walker size 2
   contains mate is robot count 2
+  contains hill is slope size 3
   contains fence is wall from 10 10 to -10 10
   varies noise of left_wheel 0 to 10%
   varies density of Robot 1 to 3
@@ -385,6 +389,7 @@ TEXTS = [
     ("ball is item size 2", "ball is item size 2 reached moves", "taught with ball reached stays, now moves"),
     ("ball is item size 2", "ball is item size 2 delivered stays", "taught with ball delivered moves, now stays"),
     ("robot count 2", "robot count 3", "taught with mate count 2, now 3"),
+    ("slope size 3", "slope size 3 pull 9", "taught with hill pull 0, now 9"),
     ("  contains fe", "  contains kin is robot at 30 0\n  contains fe", "its task has changed: contains kin"),
     (
         "-20 on collision with mate", "-20 on collision",

@@ -105,7 +105,7 @@ def test_hover(drive) -> None:
     assert "3 readings" in hover(editor, path, "sensor eye", 8)
     assert "read by Avoid, Drive" in hover(editor, path, "sensor eye", 8)
     assert "Distance to" not in hover(editor, path, "reach of ball", 2)
-    assert "walker comes into" in hover(editor, path, "reach of ball", 2)
+    assert "or robot comes into" in hover(editor, path, "reach of ball", 2)
     assert "in Roam" in hover(editor, path, "contains ball", 10)
     assert "at least 4" in hover(editor, path, "population 8", 3)
     assert "An input" in hover(editor, path, "  reads eye", 4)

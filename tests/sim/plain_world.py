@@ -611,7 +611,7 @@ class PlainBody:
         self.space.add(shape)
         return shape
 
-    def step(self, commands, kept, c, s, held, places, pull):
+    def step(self, commands, kept, c, s, held, places, pull=()):
         """x, y, angle and their velocities a tick later."""
         for i, item in self.items.items():
             item.sensor = i != held

@@ -20,7 +20,7 @@ def port() -> int:
 def test_a_robot_hears_what_another_said_last_until_it_is_silent(port: int, monkeypatch: pytest.MonkeyPatch) -> None:
     now = [100.0]
     monkeypatch.setattr(udp, "monotonic", lambda: now[0])
-    ears = UdpSensor("left", port, hold=0.5).open()
+    ears = UdpSensor("left", port, lasts=0.5).open()
     assert ears.read() == (0.0,)
     other, third, own = (UdpActuator(name, port, HERE).open() for name in ("right", "third", "left"))
     own.write(1.0)
@@ -50,7 +50,7 @@ def test_a_robot_hears_what_another_said_last_until_it_is_silent(port: int, monk
     ],
 )  # fmt: skip
 def test_what_is_damaged_late_or_a_strangers_is_not_heard(port: int, data: bytes) -> None:
-    ears = UdpSensor("left", port, hold=60.0).open()
+    ears = UdpSensor("left", port, lasts=60.0).open()
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
         for each in (packet("right", 2, 0.25), data):
             sender.sendto(each, (HERE, port))

@@ -286,6 +286,10 @@ class Signal(ActuatorKind):
     zero = 0.0
     is_said = True
 
+    @property
+    def acts_at_rest(self) -> bool:  # type: ignore[override]
+        return self.neutral > 0.0  # others hear it
+
 
 @kind("actuator", "action")
 class Action(ActuatorKind):

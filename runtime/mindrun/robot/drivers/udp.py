@@ -95,7 +95,7 @@ class Heard:
 
     sock: socket.socket
     own: str
-    hold: float
+    lasts: float
     last: dict[str, tuple[int, float, float]] = field(default_factory=dict)  # number, value, time
 
     def read(self) -> tuple[float]:
@@ -104,9 +104,9 @@ class Heard:
         for name, number, value in self._new():
             before = self.last.get(name)
             # What was sent earlier may come later; who begins anew begins with small numbers.
-            if before is None or number > before[0] or now - before[2] > self.hold:
+            if before is None or number > before[0] or now - before[2] > self.lasts:
                 self.last[name] = number, value, now
-        self.last = {name: each for name, each in self.last.items() if now - each[2] <= self.hold}
+        self.last = {name: each for name, each in self.last.items() if now - each[2] <= self.lasts}
         newest = max(self.last.values(), key=lambda each: each[2], default=(0, 0.0, 0.0))
         return (newest[1],)
 
@@ -124,13 +124,13 @@ class Heard:
 class UdpSensor:
     """What another robot of a local network says, of several the one that spoke last: 0 where nobody does.
 
-    It stays for `hold`, in which datagrams may be lost, and is 0 then, as of a robot that is out of range. `name` is
+    It stays for `lasts`, in which datagrams may be lost, and is 0 then, as of a robot that is out of range. `name` is
     this robot's own, whose datagrams are not heard.
     """
 
     name: Annotated[str, TEXT]
     port: Annotated[int, PORT] = DEFAULT_PORT
-    hold: Annotated[float, SECONDS] = 0.5
+    lasts: Annotated[float, SECONDS] = 0.5
 
     unit = ""
     usual = (0.0, 1.0)
@@ -143,5 +143,5 @@ class UdpSensor:
             sock.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # several robots may be of one machine
             sock.bind(("", self.port))
 
-        heard = Heard(opened(bind, f"udp port {self.port}"), self.name, self.hold)
+        heard = Heard(opened(bind, f"udp port {self.port}"), self.name, self.lasts)
         return OpenSensor(heard.read, heard.sock.close)
