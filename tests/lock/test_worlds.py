@@ -90,9 +90,10 @@ skill Grab is rule
   maintains near < 90%
   reads near
   reads holding
+  reads heard
   reads home
   drives claw at near + holding - home
-  drives call at 1/2
+  drives call at heard / 2
   drives mood at 1/2
 
 skill Watch is rule
