@@ -1,9 +1,10 @@
 """One tick of many worlds in lockstep.
 
-A **lane** is one world with one robot in it; `lanes` of them are at work, numbered 0 to lanes − 1. Every quantity is an
-array [row, lane] (a few are [lane, column], some of records; `sim/state.py` says which), so that a loop over the lanes
-vectorises. What is the same in all of them stands in `tables`: a row for each sensor, skill, edge, reward … of a mind
-and its task (`sim/codes.py`). The compiled code is the same for every mind: it reads the tables.
+A **lane** is one robot in its world; `lanes` of them are at work, numbered 0 to lanes − 1. The robots of a world are
+neighbours: the first lane has its things, and the others copies of them (`sharing`). Every quantity is an array [row,
+lane] (a few are [lane, column], some of records; `sim/state.py` says which), so that a loop over the lanes vectorises.
+What is the same in all of them stands in `tables`: a row for each sensor, skill, edge, reward … of a mind and its task
+(`sim/codes.py`). The compiled code is the same for every mind: it reads the tables.
 
 `advance` runs ticks, each in six stages:
 
