@@ -20,8 +20,8 @@ class Robot(ThingKind):
 
     The same master is in charge of them, or the skill that they are `under`. The first robot is one more of the first
     name under its master; with `count 0` it is alone in that. They push each other as balls and boxes do. They begin
-    where the first could: anywhere clear in an arena, `away` from it, or `at` places. With `paid 0`
-    they are a part of the world: nothing that happens to them is rewarded or counted, or ends a run.
+    where the first could: anywhere clear in an arena, `away` from it, or `at` places. With `paid 0` they are a part of
+    the world: nothing that happens to them is rewarded or counted, or ends a run.
     """
 
     count: Annotated[int, COUNT] = 1
@@ -35,5 +35,5 @@ class Robot(ThingKind):
     is_round = True
 
     def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
-        """Of one at a place that of any scene: only who knows its body can say whether it is inside."""
+        """The error that keeps robots out of a scene; whether one at a place fits, only who knows its body can say."""
         return ThingKind.mistake(self, None if self.spots else scene)
